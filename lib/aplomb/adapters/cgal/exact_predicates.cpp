@@ -1,0 +1,66 @@
+#include "aplomb/adapters/cgal/exact_predicates.h"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+#include <cmath>
+
+namespace aplomb::adapters {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+
+Kernel::Point_3 point(const Vec3& p) {
+  return {p.x, p.y, p.z};
+}
+Kernel::Triangle_3 triangle(const Corners& c) {
+  return {point(c[0]), point(c[1]), point(c[2])};
+}
+
+}  // namespace
+
+int orientation(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
+  // Shewchuk's static filter (1997): the determinant's rounding error is below (7 + 56 eps) eps times the
+  // permanent.
+  const Vec3 u = b - a, v = c - a, w = d - a;
+  const double vw = v.y * w.z, wv = v.z * w.y, wu = w.y * u.z, uw = w.z * u.y, uv = u.y * v.z, vu = u.z * v.y;
+  const double determinant = u.x * (vw - wv) + v.x * (wu - uw) + w.x * (uv - vu);
+  const double permanent = std::abs(u.x) * (std::abs(vw) + std::abs(wv)) +
+                           std::abs(v.x) * (std::abs(wu) + std::abs(uw)) +
+                           std::abs(w.x) * (std::abs(uv) + std::abs(vu));
+  const double bound = 7.7715611723761027e-16 * permanent;
+  if (determinant > bound) return 1;
+  if (determinant < -bound) return -1;
+  return static_cast<int>(CGAL::orientation(point(a), point(b), point(c), point(d)));
+}
+
+bool triangles_meet(const Corners& a, const Corners& b) {
+  return CGAL::do_intersect(triangle(a), triangle(b));
+}
+
+bool triangle_meets_segment(const Corners& a, Vec3 from, Vec3 to) {
+  return CGAL::do_intersect(triangle(a), Kernel::Segment_3(point(from), point(to)));
+}
+
+bool on_same_side(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
+  return CGAL::coplanar_orientation(point(a), point(b), point(c), point(d)) == CGAL::POSITIVE;
+}
+
+bool are_collinear(Vec3 a, Vec3 b, Vec3 c) {
+  const Vec3 u = b - a, v = c - a;
+  // Far from collinear: each component of the cross product is wrong by less than 4 eps of its terms.
+  const Vec3 normal = cross(u, v);
+  const auto certain = [](double value, double p, double q) {
+    return std::abs(value) > 1e-15 * (std::abs(p) + std::abs(q));
+  };
+  if (certain(normal.x, u.y * v.z, u.z * v.y) || certain(normal.y, u.z * v.x, u.x * v.z) ||
+      certain(normal.z, u.x * v.y, u.y * v.x))
+    return false;
+  return CGAL::collinear(point(a), point(b), point(c));
+}
+
+int orientation_xy(Vec3 a, Vec3 b, Vec3 c) {
+  return static_cast<int>(
+      CGAL::orientation(Kernel::Point_2(a.x, a.y), Kernel::Point_2(b.x, b.y), Kernel::Point_2(c.x, c.y)));
+}
+
+}  // namespace aplomb::adapters

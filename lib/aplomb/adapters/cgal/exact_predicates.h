@@ -1,0 +1,27 @@
+#pragma once
+
+#include <array>
+
+#include "aplomb/core/vec.h"
+
+namespace aplomb::adapters {
+
+using Corners = std::array<Vec3, 3>;
+
+/// The sign of det(b - a, c - a, d - a): +1 when d is on the side towards which a, b, c run
+/// counter-clockwise. Exact.
+int orientation(Vec3 a, Vec3 b, Vec3 c, Vec3 d);
+
+/// Exact; no triangle is degenerate. Touching counts.
+bool triangles_meet(const Corners& a, const Corners& b);
+bool triangle_meets_segment(const Corners& a, Vec3 from, Vec3 to);
+
+/// Whether c and d lie on the same side of the line through a and b, all four coplanar; exact.
+bool on_same_side(Vec3 a, Vec3 b, Vec3 c, Vec3 d);
+
+bool are_collinear(Vec3 a, Vec3 b, Vec3 c);
+
+/// The sign of the signed area of three points seen along -z; exact.
+int orientation_xy(Vec3 a, Vec3 b, Vec3 c);
+
+}  // namespace aplomb::adapters

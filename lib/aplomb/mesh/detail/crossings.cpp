@@ -1,0 +1,112 @@
+#include "aplomb/mesh/detail/crossings.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
+
+#include "aplomb/adapters/cgal/exact_predicates.h"
+
+namespace aplomb::detail {
+namespace {
+
+using adapters::Corners;
+
+Corners corners_of(const TriangleMesh& mesh, const Triangle& t) {
+  return {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
+}
+
+/// Strictly all on one side of the plane of `a`.
+template <class... Points>
+bool on_one_side(const Corners& a, Vec3 first, Points... others) {
+  const int side = adapters::orientation(a[0], a[1], a[2], first);
+  return side != 0 && ((adapters::orientation(a[0], a[1], a[2], others) == side) && ...);
+}
+
+/// Turned so that the shared vertex, or the one that is not shared, comes first.
+Triangle turned(const Triangle& t, unsigned first) {
+  return {t[first], t[(first + 1) % 3], t[(first + 2) % 3]};
+}
+
+bool cross(const TriangleMesh& mesh, const Triangle& s, const Triangle& t) {
+  unsigned in_s = 0, in_t = 0;  // the shared vertices, as bits
+  for (unsigned i = 0; i < 3; ++i)
+    for (unsigned j = 0; j < 3; ++j)
+      if (s[i] == t[j]) in_s |= 1U << i, in_t |= 1U << j;
+  constexpr std::array<unsigned, 8> first_of{0, 0, 1, 2,
+                                             2, 1, 0, 0};  // the odd one out of a mask of one or two bits
+  if (in_s == 0) {
+    const Corners a = corners_of(mesh, s), b = corners_of(mesh, t);
+    return !on_one_side(a, b[0], b[1], b[2]) && !on_one_side(b, a[0], a[1], a[2]) &&
+           adapters::triangles_meet(a, b);
+  }
+  const Corners a = corners_of(mesh, turned(s, first_of[in_s])),
+                b = corners_of(mesh, turned(t, first_of[in_t]));
+  if (in_s == 7) return false;
+  const bool share_one = (in_s & (in_s - 1)) == 0;
+  if (share_one)
+    return !on_one_side(a, b[1], b[2]) && !on_one_side(b, a[1], a[2]) &&
+           (adapters::triangle_meets_segment(a, b[1], b[2]) ||
+            adapters::triangle_meets_segment(b, a[1], a[2]));
+  return adapters::orientation(a[0], a[1], a[2], b[0]) == 0 && adapters::on_same_side(a[1], a[2], a[0], b[0]);
+}
+
+/// +1 or -1 when the upward ray from p leaves or enters through the triangle, p moved by (-eps^2, eps, 0) so
+/// that it meets no edge; else 0.
+int crossing_above(const Corners& t, Vec3 p) {
+  int turns = 0;  // of the triangle's projection round p
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 from = t[i], to = t[(i + 1) % 3];
+    if ((from.y > p.y) == (to.y > p.y)) continue;
+    const bool rises = to.y > p.y;
+    const bool right_of_p =
+        rises ? adapters::orientation_xy(from, to, p) >= 0 : adapters::orientation_xy(to, from, p) >= 0;
+    if (right_of_p) turns += rises ? 1 : -1;
+  }
+  if (turns == 0) return 0;
+  return adapters::orientation(t[0], t[1], t[2], p) * turns < 0 ? turns : 0;
+}
+
+}  // namespace
+
+Result<std::size_t> count_crossings(const TriangleMesh& mesh, const TriangleTree& tree,
+                                    const std::vector<bool>& skipped, const Job& job) {
+  constexpr std::uint32_t leaves_a_step =
+      4096;  // about 15 ms: steps bound the wait for a cancel, whatever the threads
+  std::size_t crossings = 0;
+  for (std::uint32_t first = 0; first < tree.leaves() && crossings < most_crossings; first += leaves_a_step) {
+    if (!job.report(static_cast<double>(first) / tree.leaves(), "check")) return cancelled();
+    const tbb::blocked_range<std::uint32_t> step(first, std::min(first + leaves_a_step, tree.leaves()), 64);
+    const auto count_in = [&](const tbb::blocked_range<std::uint32_t>& leaves, std::size_t count) {
+      for (std::uint32_t leaf = leaves.begin(); leaf != leaves.end(); ++leaf)
+        tree.pairs_of_leaf(leaf, [&](std::uint32_t s, std::uint32_t t) {
+          count += !skipped[s] && !skipped[t] && cross(mesh, mesh.triangles[s], mesh.triangles[t]);
+        });
+      return count;
+    };
+    crossings += tbb::parallel_reduce(step, std::size_t{0}, count_in, std::plus<>());
+  }
+  return crossings;
+}
+
+std::vector<int> windings_round_components(const TriangleMesh& mesh, const TriangleTree& tree,
+                                           const Components& components) {
+  std::vector<int> windings(components.count);
+  if (components.count < 2) return windings;
+  std::uint32_t next = 0;  // components are numbered in the order of their first triangles
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (components.of_triangle[t] != next) continue;
+    const Vec3 p = mesh.vertices[mesh.triangles[t][0]];
+    const auto x = static_cast<float>(p.x), y = static_cast<float>(p.y), z = static_cast<float>(p.z);
+    tree.for_each(
+        [&](const FloatBox& box) {
+          return box.min[0] <= x && x <= box.max[0] && box.min[1] <= y && y <= box.max[1] && z <= box.max[2];
+        },
+        [&](std::uint32_t other) {
+          if (components.of_triangle[other] != next)
+            windings[next] += crossing_above(corners_of(mesh, mesh.triangles[other]), p);
+        });
+    ++next;
+  }
+  return windings;
+}
+
+}  // namespace aplomb::detail
