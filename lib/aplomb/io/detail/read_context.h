@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "aplomb/io/read_mesh.h"
+
+namespace aplomb::detail {
+
+/// What the reader of one format is given: the bytes, what they may cost, and where to leave notes.
+class ReadContext {
+ public:
+  ReadContext(std::span<const std::byte> bytes, std::string_view name, const ReadOptions& options, const Job& job)
+      : bytes_(bytes), name_(name), options_(options), job_(job) {}
+
+  std::span<const std::byte> bytes() const { return bytes_; }
+  std::string_view text() const { return {reinterpret_cast<const char*>(bytes_.data()), bytes_.size()}; }
+  const std::string& name() const { return name_; }
+  const ReadOptions& options() const { return options_; }
+
+  /// "part.obj, line 3: what is wrong" as unusable_input; `place` may be empty.
+  tl::unexpected<Error> unusable(std::string_view place, std::string_view problem) const;
+
+  /// over_budget unless this many vertices and triangles, with `work_bytes` and the file itself, fit the budget.
+  Result<void> admit(std::size_t vertices, std::size_t triangles, std::size_t work_bytes = 0) const;
+
+  /// False: the caller wants to stop.
+  bool proceed(double fraction) const { return job_.report(fraction, "read"); }
+
+  void note(std::string sentence);
+  std::vector<std::string> take_notes() { return std::move(notes_); }
+
+ private:
+  std::span<const std::byte> bytes_;
+  std::string name_;
+  const ReadOptions& options_;
+  const Job& job_;
+  std::vector<std::string> notes_;
+};
+
+/// A mesh that grows within the budget: capacity is asked for before it is taken.
+class GrowingMesh {
+ public:
+  explicit GrowingMesh(const ReadContext& context) : context_(&context) {}
+
+  [[nodiscard]] bool add_vertex(Vec3 vertex) {
+    if (mesh_.vertices.size() == mesh_.vertices.capacity() && !grow_vertices()) return false;
+    mesh_.vertices.push_back(vertex);
+    return true;
+  }
+  [[nodiscard]] bool add_triangle(Triangle triangle) {
+    if (mesh_.triangles.size() == mesh_.triangles.capacity() && !grow_triangles()) return false;
+    mesh_.triangles.push_back(triangle);
+    return true;
+  }
+  /// Room for counts that were checked against the file's size.
+  Result<void> reserve(std::size_t vertices, std::size_t triangles);
+  /// Why an add failed.
+  tl::unexpected<Error> failure() const { return tl::unexpected<Error>(failure_); }
+
+  const TriangleMesh& mesh() const { return mesh_; }
+  TriangleMesh take() { return std::move(mesh_); }
+
+ private:
+  bool grow_vertices();
+  bool grow_triangles();
+  bool keep(const Result<void>& admitted);
+
+  const ReadContext* context_;
+  TriangleMesh mesh_;
+  Error failure_;
+};
+
+/// Text from a file made fit for a message: at most 40 characters, no control characters, in quotes.
+std::string quoted(std::string_view text);
+
+}  // namespace aplomb::detail
