@@ -86,8 +86,8 @@ class TempFile {
 fs::path temp_path_beside(const fs::path& target) {
   static std::atomic<unsigned> counter{0};
   const auto now = std::chrono::steady_clock::now().time_since_epoch().count();
-  const std::string name = ".aplomb-" + std::to_string(::getpid()) + "-" + std::to_string(now) + "-" +
-                           std::to_string(counter++) + ".tmp";
+  const std::string name =
+      ".aplomb-" + std::to_string(::getpid()) + "-" + std::to_string(now) + "-" + std::to_string(counter++) + ".tmp";
   return fs::absolute(target).parent_path() / name;
 }
 
@@ -130,7 +130,7 @@ Result<void> write_file_atomically(const fs::path& target, std::span<const std::
   const Result<fs::path> path = without_links(target);
   if (!path) return tl::unexpected<Error>(path.error());
 
-  struct stat status{};
+  struct stat status {};
   const bool exists = ::stat(path->c_str(), &status) == 0;
   if (!exists && errno != ENOENT) return cannot_write(target, reason_of(errno));
   if (exists && S_ISDIR(status.st_mode)) return cannot_write(target, "it is a directory; name a file in it");

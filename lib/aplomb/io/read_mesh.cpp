@@ -82,10 +82,10 @@ bool is_soup(const TriangleMesh& mesh) {
 
 /// What every format has in common after it was read.
 Result<MeshFile> finished(MeshFile file, ReadContext& context) {
-  const std::string stem = context.name() == "-" ? "standard input" : std::filesystem::path(context.name()).stem().string();
+  const std::string stem =
+      context.name() == "-" ? "standard input" : std::filesystem::path(context.name()).stem().string();
   std::size_t left_out = std::erase_if(file.objects, [](const MeshObject& o) { return o.mesh.triangles.empty(); });
-  if (file.objects.empty())
-    return context.unusable("", "it holds no triangles; export the model as a surface mesh");
+  if (file.objects.empty()) return context.unusable("", "it holds no triangles; export the model as a surface mesh");
   if (left_out > 0) context.note(std::to_string(left_out) + " objects without triangles were ignored");
   for (MeshObject& object : file.objects) {
     if (object.name.empty()) object.name = stem;
@@ -129,14 +129,14 @@ Result<std::vector<std::byte>> load(const std::filesystem::path& path, std::size
   if (path == "-") return read_all(STDIN_FILENO, 65536, most, "standard input");
   const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (fd < 0) return cannot_read(path, errno);
-  struct stat status{};
+  struct stat status {};
   const bool known = ::fstat(fd, &status) == 0 && S_ISREG(status.st_mode);
   const std::size_t expected = known ? static_cast<std::size_t>(status.st_size) : 65536;
-  auto bytes = expected > most ? fail(ErrorCode::over_budget,
-                                      path.string() + ": its " + std::to_string(expected >> 20) +
-                                          " MB exceed the memory budget of " + std::to_string(most >> 20) +
-                                          " MB; allow more memory")
-                               : read_all(fd, expected, most, path);
+  auto bytes = expected > most
+                   ? fail(ErrorCode::over_budget, path.string() + ": its " + std::to_string(expected >> 20) +
+                                                      " MB exceed the memory budget of " + std::to_string(most >> 20) +
+                                                      " MB; allow more memory")
+                   : read_all(fd, expected, most, path);
   ::close(fd);
   return bytes;
 }
@@ -163,7 +163,8 @@ Result<MeshFile> read_mesh(std::span<const std::byte> bytes, std::string_view na
     return context.unusable("byte 0", "the text is UTF-16; save it as UTF-8 or plain ASCII");
   if (!reader) reader = reader_by_extension(name);
   if (!reader)
-    return context.unusable("", "neither its content nor its extension is that of STL, OBJ, PLY, OFF or 3MF; export one of these");
+    return context.unusable(
+        "", "neither its content nor its extension is that of STL, OBJ, PLY, OFF or 3MF; export one of these");
   auto file = reader(context);
   if (!file) return file;
   return finished(std::move(*file), context);

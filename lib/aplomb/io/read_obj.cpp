@@ -16,12 +16,9 @@ class ObjReader {
       if (text_.at_line_end()) continue;
       Result<void> done;
       const std::string_view keyword = text_.word();
-      if (keyword == "v")
-        done = read_vertex();
-      else if (keyword == "f" || keyword == "fo")
-        done = read_face();
-      else if (keyword == "o" && ++names_ == 1)
-        name_ = text_.rest_of_line();
+      if (keyword == "v") done = read_vertex();
+      else if (keyword == "f" || keyword == "fo") done = read_face();
+      else if (keyword == "o" && ++names_ == 1) name_ = text_.rest_of_line();
       else if (keyword == "curv" || keyword == "surf" || keyword == "cstype")
         context_.note("free-form curves and surfaces were ignored");
       if (!done) return tl::unexpected<Error>(done.error());
@@ -47,7 +44,8 @@ class ObjReader {
     corners_.clear();
     while (!text_.at_line_end()) {
       const auto index = text_.integer();
-      if (!index) return context_.unusable(text_.place(), "expected a vertex index, found " + quoted(text_.peek_word()));
+      if (!index)
+        return context_.unusable(text_.place(), "expected a vertex index, found " + quoted(text_.peek_word()));
       text_.skip_word();  // the texture's and the normal's index
       const auto count = static_cast<long long>(mesh_.mesh().vertices.size());
       const long long corner = *index > 0 ? *index - 1 : *index < 0 && *index >= -count ? count + *index : -1;
@@ -62,7 +60,8 @@ class ObjReader {
   }
 
   tl::unexpected<Error> out_of_range(long long index) const {
-    return context_.unusable(text_.place(), "vertex index " + std::to_string(index) + " is out of range, the file has " +
+    return context_.unusable(text_.place(), "vertex index " + std::to_string(index) +
+                                                " is out of range, the file has " +
                                                 std::to_string(mesh_.mesh().vertices.size()) +
                                                 " vertices up to here; export the model again");
   }

@@ -36,7 +36,8 @@ class AsciiReader {
       if (words % 65536 == 0 && !context_.proceed(text_.share_read())) return cancelled();
       if (auto done = read_statement(); !done) return tl::unexpected<Error>(done.error());
     }
-    if (in_facet_) return context_.unusable(text_.place(), "the file ends within a facet; it was cut short, save it again");
+    if (in_facet_)
+      return context_.unusable(text_.place(), "the file ends within a facet; it was cut short, save it again");
     if (!ended_) context_.note("the ASCII STL has no endsolid line; it may have been cut short");
     return single_object("ASCII STL", std::string(name_), mesh_.take());
   }
@@ -63,7 +64,7 @@ class AsciiReader {
     // The normal follows from the corners; what the file says of it is often wrong and never needed.
     text_.skip_to_word();
     if (same_word(text_.peek_word(), "normal"))
-      for (int i = 0; i < 4; ++i) text_.skip_to_word(), text_.skip_word();
+      for (int i = 0; i < 4; ++i, text_.skip_word()) text_.skip_to_word();
     return {};
   }
 
@@ -75,11 +76,12 @@ class AsciiReader {
       if (!value)
         return context_.unusable(text_.place(), "expected a finite coordinate, found " + quoted(text_.peek_word()) +
                                                     "; repair or export the model again");
-      position[axis] = *value;
+      position[axis] = static_cast<float>(*value);  // STL is a float32 format, however it is written
     }
     if (!in_facet_ || corners_ == 3)
-      return context_.unusable(start.place(), in_facet_ ? "a facet has more than three corners; triangulate the model first"
-                                                        : "a vertex stands outside a facet; save the file again");
+      return context_.unusable(start.place(), in_facet_
+                                                  ? "a facet has more than three corners; triangulate the model first"
+                                                  : "a vertex stands outside a facet; save the file again");
     if (!index_.find_or_add(position, triangle_[corners_++])) return index_.failure();
     return {};
   }
@@ -114,11 +116,13 @@ Result<MeshFile> read_stl_ascii(ReadContext& context) { return AsciiReader(conte
 Result<MeshFile> read_stl_binary(ReadContext& context) {
   const auto bytes = context.bytes();
   if (bytes.size() < kHeader)
-    return context.unusable("", "neither an ASCII STL (it does not begin with \"solid\") nor a binary one (shorter than its header)");
+    return context.unusable(
+        "", "neither an ASCII STL (it does not begin with \"solid\") nor a binary one (shorter than its header)");
   const std::size_t count = facet_count(bytes), room = (bytes.size() - kHeader) / kFacet;
   if (count > room)
-    return context.unusable("byte 80", "the header promises " + std::to_string(count) + " facets, the file has room for " +
-                                           std::to_string(room) + "; it was cut short or is no STL, save it again");
+    return context.unusable("byte 80", "the header promises " + std::to_string(count) +
+                                           " facets, the file has room for " + std::to_string(room) +
+                                           "; it was cut short or is no STL, save it again");
   if (bytes.size() != kHeader + kFacet * count)
     context.note(std::to_string(bytes.size() - kHeader - kFacet * count) + " bytes after the last facet were ignored");
 

@@ -49,7 +49,8 @@ Result<std::string> model_xml(const TriangleMesh& mesh, const WriteOptions& opti
   }
   out.add("</vertices>\n<triangles>\n");
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    if (i % 65536 == 0 && !job.report(0.3 * static_cast<double>(i) / static_cast<double>(mesh.triangles.size()), "write"))
+    if (i % 65536 == 0 &&
+        !job.report(0.3 * static_cast<double>(i) / static_cast<double>(mesh.triangles.size()), "write"))
       return cancelled();
     out.add("<triangle v1=\"");
     out.add(mesh.triangles[i][0]);
@@ -100,10 +101,12 @@ class ZipWriter {
       bool stop = false;
     } progress{job};
     zip_register_progress_callback_with_state(
-        archive_, 0.02, [](zip_t*, double share, void* data) {
+        archive_, 0.02,
+        [](zip_t*, double share, void* data) {
           auto& p = *static_cast<Progress*>(data);
           p.stop = p.stop || !p.job.report(0.3 + 0.7 * share, "write");
-        }, nullptr, &progress);
+        },
+        nullptr, &progress);
     zip_register_cancel_callback_with_state(
         archive_, [](zip_t*, void* data) { return static_cast<Progress*>(data)->stop ? 1 : 0; }, nullptr, &progress);
     if (zip_close(archive_) != 0) return progress.stop ? cancelled() : failure();

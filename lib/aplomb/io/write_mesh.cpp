@@ -62,7 +62,8 @@ Vec3 facet_normal(const TriangleMesh& mesh, const Triangle& t) {
 /// Makes sure of a byte above 127 within bytes 84..211 by the least change to the first normal: the sign of a zero,
 /// or the lowest mantissa byte.
 void mark_as_binary(Bytes& stl) {
-  const auto begin = stl.begin() + 84, end = stl.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(212, stl.size()));
+  const auto begin = stl.begin() + 84,
+             end = stl.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(212, stl.size()));
   if (std::any_of(begin, end, [](std::byte b) { return b > std::byte{127}; })) return;
   for (int axis = 0; axis < 3; ++axis) {
     float component = 0;
@@ -121,10 +122,10 @@ Result<Bytes> encode_obj(const TriangleMesh& mesh, const WriteOptions& options, 
 }
 
 Result<Bytes> encode_ply(const TriangleMesh& mesh, const Job& job) {
-  const std::string header = "ply\nformat binary_little_endian 1.0\ncomment by Aplomb, millimetres, z up\nelement vertex " +
-                             std::to_string(mesh.vertices.size()) +
-                             "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
-                             std::to_string(mesh.triangles.size()) + "\nproperty list uchar int vertex_indices\nend_header\n";
+  const std::string header =
+      "ply\nformat binary_little_endian 1.0\ncomment by Aplomb, millimetres, z up\nelement vertex " +
+      std::to_string(mesh.vertices.size()) + "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
+      std::to_string(mesh.triangles.size()) + "\nproperty list uchar int vertex_indices\nend_header\n";
   Bytes ply(header.size() + 12 * mesh.vertices.size() + 13 * mesh.triangles.size());
   std::memcpy(ply.data(), header.data(), header.size());
   std::byte* at = ply.data() + header.size();
@@ -145,7 +146,8 @@ bool fits_float(double value) { return std::abs(value) <= std::numeric_limits<fl
 
 std::string find_problem(const TriangleMesh& mesh) {
   if (mesh.triangles.empty()) return "the mesh has no triangles, nothing can be written";
-  if (mesh.triangles.size() > std::numeric_limits<std::uint32_t>::max()) return "the mesh has too many triangles; simplify it";
+  if (mesh.triangles.size() > std::numeric_limits<std::uint32_t>::max())
+    return "the mesh has too many triangles; simplify it";
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
     for (int axis = 0; axis < 3; ++axis)
       if (!fits_float(mesh.vertices[i][axis]))
@@ -174,10 +176,14 @@ Result<std::vector<std::byte>> encode_mesh(const TriangleMesh& mesh, MeshFormat 
     return t[0] < mesh.vertices.size() && t[1] < mesh.vertices.size() && t[2] < mesh.vertices.size();
   }));
   switch (format) {
-    case MeshFormat::three_mf: return detail::encode_3mf(mesh, options, job);
-    case MeshFormat::stl: return detail::encode_stl(mesh, job);
-    case MeshFormat::obj: return detail::encode_obj(mesh, options, job);
-    case MeshFormat::ply: return detail::encode_ply(mesh, job);
+    case MeshFormat::three_mf:
+      return detail::encode_3mf(mesh, options, job);
+    case MeshFormat::stl:
+      return detail::encode_stl(mesh, job);
+    case MeshFormat::obj:
+      return detail::encode_obj(mesh, options, job);
+    case MeshFormat::ply:
+      return detail::encode_ply(mesh, job);
   }
   return fail(ErrorCode::invalid_option, "no such mesh format");
 }

@@ -36,9 +36,10 @@ Result<MeshFormat> format_of(const std::filesystem::path& path);
 /// and admesh take it for ASCII.
 ///
 /// \pre  Indices are in range.
-/// \return unusable_input for a mesh without triangles or with a coordinate beyond float32; third_party (zip); cancelled.
-Result<std::vector<std::byte>> encode_mesh(const TriangleMesh& mesh, MeshFormat format, const WriteOptions& options = {},
-                                           const Job& job = {});
+/// \return unusable_input for a mesh without triangles or with a coordinate beyond float32; third_party (zip);
+/// cancelled.
+Result<std::vector<std::byte>> encode_mesh(const TriangleMesh& mesh, MeshFormat format,
+                                           const WriteOptions& options = {}, const Job& job = {});
 
 /// Writes encode_mesh() to a file, or to standard output for "-". The target is old or complete, never half; it may be
 /// the file that the mesh was read from.

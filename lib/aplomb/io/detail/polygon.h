@@ -35,7 +35,7 @@ class PolygonCutter {
 
   GrowingMesh& mesh_;
   const ReadContext& context_;
-  std::vector<Point> points_;           // of the polygon at hand, counter-clockwise
+  std::vector<Point> points_;                   // of the polygon at hand, counter-clockwise
   std::vector<std::uint32_t> next_, previous_;  // the ring of corners still there
   std::size_t left_ = 0;
   std::uint64_t steps_ = 0;

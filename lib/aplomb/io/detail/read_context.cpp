@@ -23,8 +23,9 @@ Result<void> ReadContext::admit(std::size_t vertices, std::size_t triangles, std
     return fail(ErrorCode::over_budget, name_ + ": holds more than " + std::to_string(options_.max_triangles) +
                                             " triangles, the budget; simplify the model or raise it");
   // In floating point, where no sum wraps around.
-  const double bytes = static_cast<double>(vertices) * sizeof(Vec3) + static_cast<double>(triangles) * sizeof(Triangle) +
-                       static_cast<double>(work_bytes) + static_cast<double>(bytes_.size());
+  const double bytes = static_cast<double>(vertices) * sizeof(Vec3) +
+                       static_cast<double>(triangles) * sizeof(Triangle) + static_cast<double>(work_bytes) +
+                       static_cast<double>(bytes_.size());
   if (bytes > static_cast<double>(options_.memory_bytes) || vertices > kMaxIndices)
     return fail(ErrorCode::over_budget, name_ + ": reading it needs " + megabytes(bytes) + ", the budget is " +
                                             megabytes(static_cast<double>(options_.memory_bytes)) +

@@ -21,7 +21,9 @@ class TextCursor {
 
   bool at_end() const { return at_ == end_; }
   std::size_t offset() const { return static_cast<std::size_t>(at_ - begin_); }
-  double share_read() const { return end_ == begin_ ? 1 : static_cast<double>(offset()) / static_cast<double>(end_ - begin_); }
+  double share_read() const {
+    return end_ == begin_ ? 1 : static_cast<double>(offset()) / static_cast<double>(end_ - begin_);
+  }
 
   /// After blanks: nothing more on this line but perhaps a comment.
   bool at_line_end() {
@@ -100,12 +102,10 @@ class TextCursor {
   }
   void skip_blanks() {
     while (at_ != end_) {
-      if (is_blank(*at_))
-        ++at_;
+      if (is_blank(*at_)) ++at_;
       else if (*at_ == '\\' && at_ + 1 != end_ && is_line_end(at_[1]))  // OBJ: the line goes on below
         at_ += at_[1] == '\r' && at_ + 2 != end_ && at_[2] == '\n' ? 3 : 2;
-      else
-        return;
+      else return;
     }
   }
 

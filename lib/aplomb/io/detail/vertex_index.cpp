@@ -25,8 +25,8 @@ bool VertexIndex::add(Vec3 position, std::size_t slot, std::uint32_t tag, std::u
 bool VertexIndex::grow() {
   const std::size_t next = table_.size() * 4;
   const TriangleMesh& mesh = mesh_->mesh();
-  const auto admitted = context_->admit(mesh.vertices.capacity(), mesh.triangles.capacity(),
-                                        (table_.size() + next) * sizeof(Entry));
+  const auto admitted =
+      context_->admit(mesh.vertices.capacity(), mesh.triangles.capacity(), (table_.size() + next) * sizeof(Entry));
   if (!admitted) {
     failure_ = admitted.error();
     return false;

@@ -43,7 +43,8 @@ class VertexIndex {
   }
   std::uint64_t hash_of(Vec3 p) const {
     std::uint64_t hash = seed_;
-    for (int axis = 0; axis < 3; ++axis) hash = mixed(hash ^ std::bit_cast<std::uint64_t>(p[axis])) * 0x9e3779b97f4a7c15u;
+    for (int axis = 0; axis < 3; ++axis)
+      hash = mixed(hash ^ std::bit_cast<std::uint64_t>(p[axis])) * 0x9e3779b97f4a7c15u;
     return mixed(hash);
   }
   bool add(Vec3 position, std::size_t slot, std::uint32_t tag, std::uint32_t& index);
