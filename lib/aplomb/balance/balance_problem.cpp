@@ -10,10 +10,8 @@ double largest_t(const BalanceProblem& problem, const Moments& body) {
   double t = infinity;
   for (const BalanceRow& row : problem.rows) {
     const double a = row.a(body), b = row.b(body);
-    if (b > 0)
-      t = std::min(t, a / b);
-    else if (a < 0)
-      t = -infinity;
+    if (b > 0) t = std::min(t, a / b);
+    else if (a < 0) t = -infinity;
   }
   return t;
 }

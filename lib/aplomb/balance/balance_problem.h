@@ -14,9 +14,7 @@ struct AffineForm {
 
   double operator()(Vec3 point) const { return constant + dot(gradient, point); }
   /// The integral of the form over the body.
-  double operator()(const Moments& body) const {
-    return constant * body.volume_mm3 + dot(gradient, body.first_mm4);
-  }
+  double operator()(const Moments& body) const { return constant * body.volume_mm3 + dot(gradient, body.first_mm4); }
 };
 
 constexpr AffineForm operator+(const AffineForm& f, const AffineForm& g) {
@@ -25,9 +23,7 @@ constexpr AffineForm operator+(const AffineForm& f, const AffineForm& g) {
 constexpr AffineForm operator-(const AffineForm& f, const AffineForm& g) {
   return {f.constant - g.constant, f.gradient - g.gradient};
 }
-constexpr AffineForm operator*(double s, const AffineForm& f) {
-  return {s * f.constant, s * f.gradient};
-}
+constexpr AffineForm operator*(double s, const AffineForm& f) { return {s * f.constant, s * f.gradient}; }
 
 /// One condition of one pose, affine in x, with the scalar t that all conditions share:
 ///

@@ -6,9 +6,7 @@
 namespace aplomb {
 namespace {
 
-bool finite(Vec3 v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
+bool finite(Vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 std::string sentence(const char* field, double value, const char* range) {
   std::ostringstream text;
@@ -19,8 +17,7 @@ std::string sentence(const char* field, double value, const char* range) {
 }  // namespace
 
 std::string find_problem(const StandingPose& pose) {
-  if (!finite(pose.up) || std::abs(norm(pose.up) - 1) > 1e-6)
-    return sentence("the length of up", norm(pose.up), "1");
+  if (!finite(pose.up) || std::abs(norm(pose.up) - 1) > 1e-6) return sentence("the length of up", norm(pose.up), "1");
   if (!(pose.contact_height_mm > 0) || !std::isfinite(pose.contact_height_mm))
     return sentence("contact_height_mm", pose.contact_height_mm, "above 0");
   if (!(pose.required_tip_rad >= 0 && pose.required_tip_rad < std::numbers::pi / 2))

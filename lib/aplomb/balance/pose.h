@@ -18,13 +18,11 @@ struct Contact {
 
 /// How a solid is to stand, in the model's own coordinates: nothing is moved, `up` says which way is up.
 struct StandingPose {
-  Vec3 up{0, 0, 1};               ///< unit vector, away from the plate
-  std::vector<Contact> contacts;  ///< what may touch the plate; none: whatever is low enough
-  double contact_height_mm =
-      0.1;  ///< > 0; surface this far above the lowest point still touches (half a first layer)
-  double required_tip_rad =
-      std::numbers::pi / 18;  ///< in [0, pi/2); 10 degrees is IEC 60335-1's for everyday things
-  double xy_error_mm = 0.2;   ///< >= 0; how far the printed contact's edge may lie inside the drawn one
+  Vec3 up{0, 0, 1};                 ///< unit vector, away from the plate
+  std::vector<Contact> contacts{};  ///< what may touch the plate; none: whatever is low enough
+  double contact_height_mm = 0.1;   ///< > 0; surface this far above the lowest point still touches (half a first layer)
+  double required_tip_rad = std::numbers::pi / 18;  ///< in [0, pi/2); 10 degrees is IEC 60335-1's for everyday things
+  double xy_error_mm = 0.2;  ///< >= 0; how far the printed contact's edge may lie inside the drawn one
 };
 
 /// A sentence that names the field, its value and its range, or nothing.
@@ -42,9 +40,7 @@ struct PlateFrame {
   Vec2 on_plate(Vec3 point_mm) const { return {dot(x_axis, point_mm), dot(y_axis, point_mm)}; }
   double height_mm(Vec3 point_mm) const { return dot(up, point_mm) - plate_mm; }
   Vec3 direction(Vec2 along_plate) const { return along_plate.x * x_axis + along_plate.y * y_axis; }
-  Vec3 in_model(Vec2 point_mm, double height_mm = 0) const {
-    return direction(point_mm) + (plate_mm + height_mm) * up;
-  }
+  Vec3 in_model(Vec2 point_mm, double height_mm = 0) const { return direction(point_mm) + (plate_mm + height_mm) * up; }
 };
 
 /// \pre up is not zero.

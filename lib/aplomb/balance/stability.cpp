@@ -22,15 +22,14 @@ double energy_to_topple_j(double weight_n, double margin_mm, double com_height_m
 
 /// min over edges of the angle at which the worst body within the tolerances tips: per edge the centre of
 /// mass as far out, and as high (or, when it lies outside, as low), as any densities put it.
-double robust_tip_angle_rad(const SupportPolygon& support, std::span<const Region> body,
-                            const StandingPose& pose) {
+double robust_tip_angle_rad(const SupportPolygon& support, std::span<const Region> body, const StandingPose& pose) {
   const double highest_mm = farthest_centroid_mm(body, support.frame.up) - support.frame.plate_mm;
   const double lowest_mm = -farthest_centroid_mm(body, -support.frame.up) - support.frame.plate_mm;
   double tip_rad = infinity;
   for (const SupportEdge& edge : support.edges()) {
     const Vec2 outward = -1.0 * edge.inward;
-    const double margin_mm = dot(outward, edge.from_mm) -
-                             farthest_centroid_mm(body, support.frame.direction(outward)) - pose.xy_error_mm;
+    const double margin_mm =
+        dot(outward, edge.from_mm) - farthest_centroid_mm(body, support.frame.direction(outward)) - pose.xy_error_mm;
     tip_rad = std::min(tip_rad, std::atan2(margin_mm, margin_mm >= 0 ? highest_mm : lowest_mm));
   }
   return tip_rad;
@@ -62,8 +61,7 @@ double farthest_centroid_mm(std::span<const Region> body, Vec3 direction) {
   return farthest_mm;
 }
 
-Stability measure_stability(const SupportPolygon& support, std::span<const Region> body,
-                            const StandingPose& pose) {
+Stability measure_stability(const SupportPolygon& support, std::span<const Region> body, const StandingPose& pose) {
   assert(!body.empty() && !support.corners_mm.empty());
   Stability s;
   Vec3 first;
@@ -104,8 +102,7 @@ Result<std::array<ContactVariant, 3>> contact_variants(const TriangleMesh& mesh,
   for (ContactVariant& variant : variants) {
     const Result<SupportPolygon> support = support_polygon(mesh, varied);
     if (!support) return tl::unexpected(support.error());
-    variant = {varied.contact_height_mm, measure_stability(*support, body, varied).tip_rad,
-               support->area_mm2()};
+    variant = {varied.contact_height_mm, measure_stability(*support, body, varied).tip_rad, support->area_mm2()};
     varied.contact_height_mm *= 2;
   }
   return variants;

@@ -41,8 +41,7 @@ struct Stability {
 
 /// \pre body is not empty, its regions have positive volume and density; the centre of mass lies above the
 /// plate.
-Stability measure_stability(const SupportPolygon& support, std::span<const Region> body,
-                            const StandingPose& pose);
+Stability measure_stability(const SupportPolygon& support, std::span<const Region> body, const StandingPose& pose);
 
 /// The largest direction . centroid over all densities within the regions' intervals.
 ///

@@ -35,29 +35,22 @@ Heights heights_of(const TriangleMesh& mesh, Vec3 up) {
   return heights;
 }
 
-/// Gives every triangle that reaches down to the contact height, as its corners and their heights.
-template <class Visit>
-void for_each_low_triangle(const TriangleMesh& mesh, const Heights& heights, double below_mm, Visit visit) {
-  for (const Triangle& t : mesh.triangles) {
-    const std::array<double, 3> h{heights.above_plate_mm[t[0]], heights.above_plate_mm[t[1]],
-                                  heights.above_plate_mm[t[2]]};
-    if (std::min({h[0], h[1], h[2]}) <= below_mm)
-      visit(std::array<Vec3, 3>{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]}, h);
-  }
-}
-
 std::vector<Vec3> lowest_surface(const TriangleMesh& mesh, const Heights& heights, double contact_height_mm) {
   std::vector<Vec3> points;
-  for_each_low_triangle(mesh, heights, contact_height_mm, [&](const auto& corners, const auto& h) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::size_t j = (i + 1) % 3;
-      if (h[i] > contact_height_mm) continue;
-      points.push_back(corners[i]);
-      for (const std::size_t k : {j, (i + 2) % 3})
-        if (h[k] > contact_height_mm)
-          points.push_back(detail::crossing(corners[i], h[i], corners[k], h[k], contact_height_mm));
+  std::vector<bool> is_taken(mesh.vertices.size());
+  for (const Triangle& t : mesh.triangles)
+    for (const std::uint32_t low : t) {
+      const double low_mm = heights.above_plate_mm[low];
+      if (low_mm > contact_height_mm) continue;
+      if (!is_taken[low]) points.push_back(mesh.vertices[low]);
+      is_taken[low] = true;
+      for (const std::uint32_t high : t) {
+        const double high_mm = heights.above_plate_mm[high];
+        if (high_mm > contact_height_mm)
+          points.push_back(
+              detail::crossing(mesh.vertices[low], low_mm, mesh.vertices[high], high_mm, contact_height_mm));
+      }
     }
-  });
   return points;
 }
 
@@ -68,19 +61,22 @@ std::vector<Vec3> named_surface(const TriangleMesh& mesh, const Heights& heights
   for (const Contact& contact : pose.contacts)
     if (contact.radius_mm == 0 && std::abs(frame.height_mm(contact.center_mm)) <= below_mm)
       points.push_back(contact.center_mm);
-  for_each_low_triangle(mesh, heights, below_mm, [&](const auto& corners, const auto& h) {
-    const detail::ConvexPiece piece = detail::part_below(corners, h, below_mm);
+  for (const Triangle& t : mesh.triangles) {
+    const std::array<double, 3> h{heights.above_plate_mm[t[0]], heights.above_plate_mm[t[1]],
+                                  heights.above_plate_mm[t[2]]};
+    if (std::min({h[0], h[1], h[2]}) > below_mm) continue;
+    const std::array<Vec3, 3> corners{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
     for (const Contact& contact : pose.contacts) {
-      if (contact.radius_mm == 0) continue;
-      const std::vector<Vec3> inside = detail::extreme_points_in_ball(piece, contact);
+      if (contact.radius_mm == 0 || !detail::may_touch(corners, contact)) continue;
+      const std::vector<Vec3> inside =
+          detail::extreme_points_in_ball(detail::part_below(corners, h, below_mm), contact);
       points.insert(points.end(), inside.begin(), inside.end());
     }
-  });
+  }
   return points;
 }
 
-tl::unexpected<Error> nothing_touches(const TriangleMesh& mesh, const Heights& heights,
-                                      const StandingPose& pose) {
+tl::unexpected<Error> nothing_touches(const TriangleMesh& mesh, const Heights& heights, const StandingPose& pose) {
   const PlateFrame frame = plate_frame(pose.up, heights.plate_mm);
   double nearest_mm = infinity;
   for (const Vec3& point : named_surface(mesh, heights, pose, infinity))
@@ -90,10 +86,9 @@ tl::unexpected<Error> nothing_touches(const TriangleMesh& mesh, const Heights& h
     text << "no part of the surface lies within the contacts named; move them onto the surface or give them "
             "a larger radius";
   else
-    text << "none of the contacts named touches the plate: the nearest is " << nearest_mm
-         << " mm above it, and " << pose.contact_height_mm
-         << " mm still touches; name what is lower, or allow it with --contact-height " << nearest_mm
-         << "mm or more";
+    text << "none of the contacts named touches the plate: the nearest is " << nearest_mm << " mm above it, and "
+         << pose.contact_height_mm << " mm still touches; name what is lower, or allow it with --contact-height "
+         << nearest_mm << "mm or more";
   return fail(ErrorCode::invalid_option, text.str());
 }
 
@@ -112,9 +107,7 @@ double SupportPolygon::width_mm() const {
   double width = infinity;
   std::size_t far = 0;  // rotating calipers: the corner farthest from the edge only ever moves on
   for (const SupportEdge& edge : edges()) {
-    const auto altitude = [&](std::size_t corner) {
-      return dot(edge.inward, corners_mm[corner % n] - edge.from_mm);
-    };
+    const auto altitude = [&](std::size_t corner) { return dot(edge.inward, corners_mm[corner % n] - edge.from_mm); };
     for (std::size_t step = 0; step < n && altitude(far + 1) >= altitude(far); ++step) ++far;
     width = std::min(width, altitude(far));
   }
@@ -143,13 +136,11 @@ std::vector<SupportEdge> SupportPolygon::edges() const {
 }
 
 Result<SupportPolygon> support_polygon(const TriangleMesh& mesh, const StandingPose& pose) {
-  if (mesh.triangles.empty())
-    return fail(ErrorCode::unusable_input, "the mesh has no triangles, so nothing can stand");
+  if (mesh.triangles.empty()) return fail(ErrorCode::unusable_input, "the mesh has no triangles, so nothing can stand");
   const Vec3 up = plate_frame(pose.up, 0).up;
   const Heights heights = heights_of(mesh, up);
-  const std::vector<Vec3> touching = pose.contacts.empty()
-                                         ? lowest_surface(mesh, heights, pose.contact_height_mm)
-                                         : named_surface(mesh, heights, pose, pose.contact_height_mm);
+  const std::vector<Vec3> touching = pose.contacts.empty() ? lowest_surface(mesh, heights, pose.contact_height_mm)
+                                                           : named_surface(mesh, heights, pose, pose.contact_height_mm);
   if (touching.empty()) return nothing_touches(mesh, heights, pose);
   SupportPolygon support;
   support.frame = plate_frame(up, heights.plate_mm);

@@ -21,7 +21,7 @@ struct SupportEdge {
 struct SupportPolygon {
   PlateFrame frame;  ///< the plate goes through the solid's lowest point
   std::vector<Vec2>
-      corners_mm;  ///< counter-clockwise and strictly convex; two ends, or one point, where it is degenerate
+      corners_mm;        ///< counter-clockwise and strictly convex; two ends, or one point, where it is degenerate
   double height_mm = 0;  ///< of the whole solid, from the plate to its highest point
 
   /// Fewer than three contacts that are not in line: nothing can stand on them.

@@ -40,13 +40,22 @@ void add_rim_points(std::vector<Vec3>& points, const ConvexPiece& piece, const C
   constexpr int rim_corners = 128;
   for (int k = 0; k < rim_corners; ++k) {
     const double angle = 2 * std::numbers::pi * k / rim_corners;
-    const Vec3 point =
-        center_mm + plane.direction({radius_mm * std::cos(angle), radius_mm * std::sin(angle)});
+    const Vec3 point = center_mm + plane.direction({radius_mm * std::cos(angle), radius_mm * std::sin(angle)});
     if (is_inside(piece, plane.up, point)) points.push_back(point);
   }
 }
 
 }  // namespace
+
+bool may_touch(const std::array<Vec3, 3>& corners, const Contact& ball) {
+  double squared_distance_mm2 = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto [low, high] = std::minmax({corners[0][axis], corners[1][axis], corners[2][axis]});
+    const double outside_mm = std::max({low - ball.center_mm[axis], ball.center_mm[axis] - high, 0.0});
+    squared_distance_mm2 += outside_mm * outside_mm;
+  }
+  return squared_distance_mm2 <= ball.radius_mm * ball.radius_mm * (1 + 1e-12);
+}
 
 std::vector<Vec3> extreme_points_in_ball(const ConvexPiece& piece, const Contact& ball) {
   std::vector<Vec3> points;
@@ -59,8 +68,7 @@ std::vector<Vec3> extreme_points_in_ball(const ConvexPiece& piece, const Contact
   return points;
 }
 
-ConvexPiece part_below(const std::array<Vec3, 3>& corners, const std::array<double, 3>& heights_mm,
-                       double height_mm) {
+ConvexPiece part_below(const std::array<Vec3, 3>& corners, const std::array<double, 3>& heights_mm, double height_mm) {
   ConvexPiece piece;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3;

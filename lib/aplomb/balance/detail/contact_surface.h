@@ -15,6 +15,9 @@ using ConvexPiece = std::vector<Vec3>;
 /// \pre The piece is planar and convex; ball.radius_mm > 0.
 std::vector<Vec3> extreme_points_in_ball(const ConvexPiece& piece, const Contact& ball);
 
+/// False when the ball misses the triangle's bounding box.
+bool may_touch(const std::array<Vec3, 3>& corners, const Contact& ball);
+
 /// Where the segment crosses the given height. The same point, bit for bit, for every triangle that shares
 /// the edge. \pre low_mm <= height_mm < high_mm.
 inline Vec3 crossing(Vec3 low, double low_mm, Vec3 high, double high_mm, double height_mm) {
@@ -22,7 +25,6 @@ inline Vec3 crossing(Vec3 low, double low_mm, Vec3 high, double high_mm, double 
 }
 
 /// The part of the triangle at or below height_mm; heights_mm are those of its corners.
-ConvexPiece part_below(const std::array<Vec3, 3>& corners, const std::array<double, 3>& heights_mm,
-                       double height_mm);
+ConvexPiece part_below(const std::array<Vec3, 3>& corners, const std::array<double, 3>& heights_mm, double height_mm);
 
 }  // namespace aplomb::detail
