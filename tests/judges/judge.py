@@ -1,0 +1,196 @@
+#!/usr/bin/env python3
+"""Lets programs by others judge a shell: judge.py (prusaslicer | manifold | tilt) SHELL [--report JSON] [--table EXE]
+
+SHELL is a 3MF or binary STL as Aplomb writes it. Every judge prints what it measured and ends with 1 when the shell
+does not hold what it promises.
+"""
+import argparse
+import json
+import math
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+import gcode
+import shells
+import void_core
+
+HERE = pathlib.Path(__file__).resolve().parent
+LAYER_MM = 0.2
+FILAMENT_MM = 1.75
+SLICING = [
+    "--fill-pattern", "rectilinear", "--fill-density", "100%", "--filament-diameter", str(FILAMENT_MM),
+    "--nozzle-diameter", "0.4", "--layer-height", str(LAYER_MM), "--first-layer-height", str(LAYER_MM),
+    "--first-layer-extrusion-width", "0.45", "--elefant-foot-compensation", "0", "--skirts", "0", "--brim-width", "0",
+    "--infill-overlap", "10%",  # at the default 25 % the infill lies on the perimeters: 2.4 % too much in a sphere's 5 mm wall
+    "--slicing-mode", "regular", "--bed-shape=-500x-500,500x-500,500x500,-500x500", "--max-print-height", "1000",
+]
+
+
+def relative(measured, expected):
+    return measured / expected - 1
+
+
+class Verdict:
+    """What was measured, and which of it is wrong."""
+
+    def __init__(self):
+        self.wrong = []
+
+    def expect(self, name, holds, measured):
+        print(f"{'ok   ' if holds else 'WRONG'} {name}: {measured}")
+        if not holds:
+            self.wrong.append(name)
+
+
+def run(*command):
+    return subprocess.run(command, check=True, capture_output=True, text=True).stdout
+
+
+def prusaslicer(path):
+    """The shell is manifold, has the volume meant, and sliced solid it prints that volume and leaves the voids empty."""
+    verdict = Verdict()
+    mesh = shells.read(path)
+    outer, voids = shells.split_voids(mesh)
+    intended = shells.intended_volume(outer, voids)
+    told = dict(re.findall(r"^(\w+) = +(\S+)$", run("prusa-slicer", "--info", path), re.MULTILINE))
+    verdict.expect("manifold", told["manifold"] == "yes", told["manifold"])
+    error = relative(float(told["volume"]), intended)
+    verdict.expect("volume = outer - voids", abs(error) < 1e-3, f"{told['volume']} mm3, {error:+.1e}")
+
+    printed, strayed = 0.0, 0.0
+    core = void_core.VoidCore(voids) if voids else None
+    for extrusion in sliced(path, mesh):
+        printed += extrusion.volume
+        if core:
+            strayed += extrusion.volume * share_inside(core, extrusion)
+    error = relative(printed, intended)
+    verdict.expect("extruded volume", abs(error) < 0.01, f"{printed:.0f} mm3, {100 * error:+.2f} %")
+    if core:
+        verdict.expect("voids have a core", core.volume() > 0, f"{len(voids)} voids, core of {core.volume():.0f} mm3")
+        verdict.expect("nothing printed in the core", strayed == 0, f"{strayed:.3f} mm3")
+    return verdict
+
+
+def sliced(path, mesh):
+    """Every extrusion of the sliced file, in the mesh's own coordinates, z in the middle of the bead."""
+    used = [mesh.vertices[i] for triangle in mesh.triangles for i in triangle]
+    low, high = ([pick(v[axis] for v in used) for axis in range(3)] for pick in (min, max))
+    centre = f"{(low[0] + high[0]) / 2},{(low[1] + high[1]) / 2}"
+    with tempfile.TemporaryDirectory() as folder:
+        program = pathlib.Path(folder) / "print.gcode"
+        run("prusa-slicer", "--export-gcode", *SLICING, "--center", centre, "--output", str(program), path)
+        with open(program) as lines:
+            for extrusion in gcode.extrusions(lines, FILAMENT_MM):
+                yield extrusion._replace(z=extrusion.z - LAYER_MM / 2 + low[2])
+
+
+def share_inside(core, extrusion):
+    """The share of an extrusion's path that runs through the core, from a sample in every cell's length."""
+    (x0, y0), (x1, y1) = extrusion.start, extrusion.end
+    samples = max(1, math.ceil(math.dist(extrusion.start, extrusion.end) / core.cell))
+    steps = [(i + 0.5) / samples for i in range(samples)]
+    return sum((x0 + t * (x1 - x0), y0 + t * (y1 - y0), extrusion.z) in core for t in steps) / samples
+
+
+def manifold(path):
+    """manifold-3d takes the shell as it is, and computes the volume meant."""
+    verdict = Verdict()
+    mesh = shells.read(path)
+    intended = shells.intended_volume(*shells.split_voids(mesh))
+    with tempfile.TemporaryDirectory() as folder:
+        given = pathlib.Path(folder) / "mesh.json"
+        given.write_text(json.dumps(mesh._asdict()))
+        told = json.loads(run("node", str(HERE / "manifold.mjs"), str(given)))
+    verdict.expect("status", told["status"] == "NoError", told["status"])
+    error = relative(told["volume"], intended)
+    verdict.expect("volume = outer - voids", abs(error) < 1e-6, f"{told['volume']:.3f} mm3, {error:+.1e}")
+    return verdict
+
+
+def tilt(path, report, table):
+    """The report's numbers are the file's, and on Bullet's tilt table the body stands exactly as far as it says."""
+    verdict = Verdict()
+    mesh = shells.read(path)
+    body = shells.body(mesh)
+    polygon = shells.support_polygon(mesh, report["options"]["contact_height_mm"])
+    after = report["after"]
+    error = relative(after["volume_mm3"], body.volume)
+    verdict.expect("volume of the report", abs(error) < 1e-6, f"{error:+.1e}")
+    error = math.dist(after["com_mm"], body.centroid)
+    verdict.expect("centre of mass of the report", error < 1e-3, f"off by {error:.1e} mm")
+    plate = min(mesh.vertices[i][2] for triangle in mesh.triangles for i in triangle)
+    angles = [tip_angle(body.centroid, plate, edge) for edge in edges(polygon)]
+    weakest = min(angles)
+    error = math.degrees(weakest) - after["tip_deg"]
+    verdict.expect("tip angle of the report", abs(error) < 0.01, f"{after['tip_deg']:.3f} degrees, off by {error:.1e}")
+    judge_on_table(verdict, body, plate, polygon, math.radians(after["tip_deg"]), table)
+    return verdict
+
+
+def edges(polygon):
+    return zip(polygon, polygon[1:] + polygon[:1])
+
+
+def tip_angle(centroid, plate, edge):
+    """atan2(distance of the centre of mass inside the edge, its height)."""
+    return math.atan2(shells.turn(*edge, centroid) / math.dist(*edge), centroid[2] - plate)
+
+
+def tip_angle_towards(centroid, plate, polygon, direction):
+    """The tilt at which the plumb line from the centre of mass leaves the support polygon, table leaning that way."""
+    reach = math.inf
+    for a, b in edges(polygon):
+        outward = (b[1] - a[1]) * math.cos(direction) - (b[0] - a[0]) * math.sin(direction)
+        if outward > 0:
+            reach = min(reach, shells.turn(a, b, centroid) / outward)
+    return math.atan2(reach, centroid[2] - plate)
+
+
+def judge_on_table(verdict, body, plate, polygon, promised, table, tolerance=math.radians(0.5)):
+    """Tilts across the weakest edge and eight other ways, half a degree short of the tip angle and beyond it."""
+    if promised < 0:
+        falls = ask(table, body, plate, polygon, [(0.0, 0.0)]) == ["falls"]
+        verdict.expect("falls on a level table", falls, "falls" if falls else "stands")
+        return
+    a, b = min(edges(polygon), key=lambda edge: tip_angle(body.centroid, plate, edge))
+    weakest = math.atan2(a[0] - b[0], b[1] - a[1])
+    directions = [(weakest, promised)]
+    for i in range(8):
+        direction = 0.2 + i * math.pi / 4
+        directions.append((direction, tip_angle_towards(body.centroid, plate, polygon, direction)))
+    questions = [(way, angle + sign * tolerance) for way, angle in directions for sign in (-1, 1)]
+    questions = [(way, max(angle, 0.0)) for way, angle in questions]
+    answers = ask(table, body, plate, polygon, questions)
+    for (way, angle), short, beyond in zip(directions, answers[::2], answers[1::2]):
+        name = f"tips at {math.degrees(angle):.2f} +- 0.5 degrees towards {math.degrees(way):.0f}"
+        verdict.expect(name, (short, beyond) == ("stands", "falls"), f"{short} short of it, {beyond} beyond")
+
+
+def ask(table, body, plate, polygon, questions):
+    (xx, xy, xz), (_, yy, yz), (_, _, zz) = body.inertia
+    numbers = [body.volume, *body.centroid, xx, xy, xz, yy, yz, zz, plate, len(polygon)]
+    numbers += [c for corner in polygon for c in corner] + [q for question in questions for q in question]
+    answer = subprocess.run([table], input=" ".join(map(repr, numbers)), check=True, capture_output=True, text=True)
+    return answer.stdout.split()
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("judge", choices=["prusaslicer", "manifold", "tilt"])
+    parser.add_argument("shell")
+    parser.add_argument("--report")
+    parser.add_argument("--table")
+    arguments = parser.parse_args()
+    if arguments.judge == "tilt":
+        with open(arguments.report) as file:
+            verdict = tilt(arguments.shell, json.load(file), arguments.table)
+    else:
+        verdict = {"prusaslicer": prusaslicer, "manifold": manifold}[arguments.judge](arguments.shell)
+    return 1 if verdict.wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

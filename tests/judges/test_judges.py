@@ -1,0 +1,142 @@
+"""The judges judged: each passes a right shell and fails a wrong one for the right reason. Answers are closed forms."""
+import contextlib
+import io
+import math
+import os
+import tempfile
+import unittest
+
+import judge
+import shells
+import void_core
+
+TABLE = os.environ["APLOMB_TILT_TABLE"]
+QUADS = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
+
+
+def leaning_box(low, high, lean=0.0):
+    """A box whose top is displaced by `lean` along x."""
+    vertices = [(x + (lean if z == high[2] else 0), y, z)
+                for z in (low[2], high[2]) for y in (low[1], high[1]) for x in (low[0], high[0])]
+    return shells.Mesh(vertices, [t for a, b, c, d in QUADS for t in ((a, b, c), (a, c, d))])
+
+
+def reversed_mesh(mesh):
+    return shells.Mesh(mesh.vertices, [(a, c, b) for a, b, c in mesh.triangles])
+
+
+def joined(first, second):
+    shift = len(first.vertices)
+    return shells.Mesh(first.vertices + second.vertices,
+                       first.triangles + [tuple(i + shift for i in t) for t in second.triangles])
+
+
+CUBE = leaning_box((0, 0, 0), (40, 40, 40))
+HOLLOW = joined(CUBE, reversed_mesh(leaning_box((10, 10, 10), (30, 30, 30))))
+WRONGLY_WOUND = joined(CUBE, leaning_box((10, 10, 10), (30, 30, 30)))
+TORN = shells.Mesh(HOLLOW.vertices, HOLLOW.triangles[:-1])
+
+
+def wrong(judgement, *arguments):
+    """What the judge finds wrong, by name."""
+    with contextlib.redirect_stdout(io.StringIO()):
+        return judgement(*arguments).wrong
+
+
+def wrong_in_file(judgement, mesh, *arguments):
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "shell.stl")
+        shells.write_stl(path, mesh)
+        return wrong(judgement, path, *arguments)
+
+
+class Prusaslicer(unittest.TestCase):
+    def test_passes_a_void_that_is_wound_inward(self):
+        self.assertEqual(wrong_in_file(judge.prusaslicer, HOLLOW), [])
+
+    def test_fails_a_void_that_is_wound_outward(self):
+        self.assertEqual(wrong_in_file(judge.prusaslicer, WRONGLY_WOUND),
+                         ["volume = outer - voids", "extruded volume", "nothing printed in the core"])
+
+    def test_fails_a_void_with_a_missing_triangle(self):
+        self.assertIn("manifold", wrong_in_file(judge.prusaslicer, TORN))
+
+
+class Manifold(unittest.TestCase):
+    def test_passes_a_void_that_is_wound_inward(self):
+        self.assertEqual(wrong_in_file(judge.manifold, HOLLOW), [])
+
+    def test_fails_a_void_that_is_wound_outward(self):
+        self.assertEqual(wrong_in_file(judge.manifold, WRONGLY_WOUND), ["volume = outer - voids"])
+
+    def test_fails_a_void_with_a_missing_triangle(self):
+        self.assertIn("status", wrong_in_file(judge.manifold, TORN))
+
+
+class Tilt(unittest.TestCase):
+    """A leaning box's centre of mass stands at (w + lean)/2 of its base: it tips at atan((w - lean) / h)."""
+
+    def judgement(self, mesh, promised_deg, **changes):
+        body = shells.body(mesh)
+        after = {"volume_mm3": body.volume, "com_mm": body.centroid, "tip_deg": promised_deg, **changes}
+        report = {"after": after, "options": {"contact_height_mm": 0.001}}
+        return wrong_in_file(judge.tilt, mesh, report, TABLE)
+
+    def test_passes_the_closed_form_of_a_box(self):
+        self.assertEqual(self.judgement(leaning_box((0, 0, 0), (20, 30, 60)), math.degrees(math.atan(20 / 60))), [])
+
+    def test_passes_the_closed_form_of_a_leaning_prism(self):
+        prism = leaning_box((0, 0, 5), (20, 30, 65), lean=12)
+        self.assertEqual(self.judgement(prism, math.degrees(math.atan((20 - 12) / 60))), [])
+
+    def test_passes_a_prism_that_is_said_to_fall(self):
+        prism = leaning_box((0, 0, 0), (20, 30, 60), lean=22)
+        self.assertEqual(self.judgement(prism, math.degrees(math.atan((20 - 22) / 60))), [])
+
+    def test_fails_a_promise_that_is_a_degree_off_either_way(self):
+        box, angle = leaning_box((0, 0, 0), (20, 30, 60)), math.degrees(math.atan(20 / 60))
+        for promised in (angle - 1, angle + 1):
+            found = self.judgement(box, promised)
+            self.assertIn("tip angle of the report", found)
+            self.assertTrue(any(name.startswith("tips at") for name in found))
+
+    def test_fails_a_prism_that_is_said_to_stand_but_falls(self):
+        prism = leaning_box((0, 0, 0), (20, 30, 60), lean=24)
+        self.assertTrue(any(name.startswith("tips at") for name in self.judgement(prism, 3.0)))
+
+    def test_fails_a_centre_of_mass_that_is_not_the_files(self):
+        box, angle = leaning_box((0, 0, 0), (20, 30, 60)), math.degrees(math.atan(20 / 60))
+        self.assertEqual(self.judgement(box, angle, com_mm=[10, 15, 30.1]), ["centre of mass of the report"])
+
+
+class Measures(unittest.TestCase):
+    def test_inertia_of_a_box_is_the_closed_form(self):
+        body = shells.body(leaning_box((5, 5, 5), (25, 35, 65)))
+        self.assertAlmostEqual(body.volume, 36000)
+        self.assertAlmostEqual(body.inertia[0][0], 36000 * (30**2 + 60**2) / 12, delta=1e-3)
+        self.assertAlmostEqual(body.inertia[0][1], 0, delta=1e-3)
+
+    def test_core_of_a_box_is_the_box_less_the_margin(self):
+        core = void_core.VoidCore([leaning_box((10, 10, 10), (30, 30, 30))], margin=1.0, cell=0.5)
+        self.assertAlmostEqual(core.volume() ** (1 / 3), 18, delta=0.51)
+        self.assertIn((20, 20, 20), core)
+        for near_the_wall in ((10.6, 20, 20), (20, 29.4, 20), (20, 20, 10.6)):
+            self.assertNotIn(near_the_wall, core)
+
+    def test_an_island_in_a_void_is_no_void(self):
+        island = joined(HOLLOW, leaning_box((15, 15, 15), (25, 25, 25)))
+        outer, voids = shells.split_voids(island)
+        self.assertEqual((len(outer), len(voids)), (2, 1))
+        self.assertAlmostEqual(shells.intended_volume(outer, voids), 64000 - 8000 + 1000)
+
+    def test_what_is_written_is_read_again(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "shell.stl")
+            shells.write_stl(path, HOLLOW)
+            again = shells.read(path)
+        self.assertEqual(len(again.vertices), len(HOLLOW.vertices))
+        self.assertAlmostEqual(shells.body(again).volume, 56000)
+
+
+if __name__ == "__main__":
+    unittest.main()
