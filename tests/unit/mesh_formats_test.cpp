@@ -22,7 +22,9 @@ MeshFile read_back(const TriangleMesh& mesh, MeshFormat format, std::string_view
 }
 
 TEST(MeshFormats, IndexedFormatsGiveBackEveryVertexAndTriangleExactly) {
-  for (const auto& [format, name, read_as] : {std::tuple{MeshFormat::obj, "a.obj", "OBJ"}}) {
+  for (const auto& [format, name, read_as] : {std::tuple{MeshFormat::obj, "a.obj", "OBJ"},
+                                              {MeshFormat::ply, "a.ply", "PLY"},
+                                              {MeshFormat::three_mf, "a.3mf", "3MF"}}) {
     const MeshFile file = read_back(shape(), format, name);
     ASSERT_EQ(file.objects.size(), 1u) << name;
     EXPECT_EQ(rounded_to_float(file.objects[0].mesh), shape()) << name;
@@ -40,6 +42,7 @@ TEST(MeshFormats, BinaryStlGivesBackEveryCornerAndTheSameNumberOfVertices) {
 TEST(MeshFormats, ContentDecidesAgainstTheExtension) {
   EXPECT_EQ(read_back(shape(), MeshFormat::stl, "a.obj").format, "binary STL");
   EXPECT_EQ(read_back(shape(), MeshFormat::obj, "a.stl").format, "OBJ");
+  EXPECT_EQ(read_back(shape(), MeshFormat::ply, "a.3mf").format, "PLY");
 }
 
 TEST(MeshFormats, ABinaryStlWhoseHeaderBeginsWithSolidIsReadAsBinary) {
@@ -79,7 +82,7 @@ TEST(MeshFormats, ObjTakesNegativeIndicesTextureAndNormalIndicesAndContinuedLine
 /// Area along z of the triangles a polygon is cut into; negative where one is turned over.
 std::vector<double> cut_areas(const std::vector<Vec2>& polygon) {
   std::string text;
-  for (const Vec2 p : polygon) text += "v " + std::to_string(p.x) + " " + std::to_string(p.y) + " 3\n";
+  for (const Vec2 p : polygon) text.append("v ").append(std::to_string(p.x)).append(" ").append(std::to_string(p.y)).append(" 3\n");
   text += "f";
   for (std::size_t i = 1; i <= polygon.size(); ++i) text += " " + std::to_string(i);
   const TriangleMesh mesh = read_text(text + "\n", "a.obj")->objects[0].mesh;
@@ -120,8 +123,7 @@ TEST(MeshFormats, WrittenStlCannotBeTakenForAscii) {
   std::uniform_real_distribution<float> coordinate(0, 100);
   for (int round = 0; round < 2000; ++round) {
     TriangleMesh mesh;
-    for (int i = 0; i < 3; ++i)
-      mesh.vertices.push_back({std::round(coordinate(random)), std::round(coordinate(random)), 0.5});
+    for (int i = 0; i < 3; ++i) mesh.vertices.push_back({std::round(coordinate(random)), std::round(coordinate(random)), 0.5});
     mesh.triangles = {{0, 1, 2}};
     const std::string stl = text_of(encode_mesh(mesh, MeshFormat::stl).value());
     EXPECT_FALSE(stl.starts_with("solid"));

@@ -32,7 +32,7 @@ class ObjReader {
     for (int axis = 0; axis < 3; ++axis) {
       const auto value = text_.number();
       if (!value)
-        return context_.unusable(text_.place(), "expected a finite coordinate, found " + quoted(text_.peek_word()) +
+        return context_.unusable(text_.place(), "expected a finite coordinate, found " + in_quotes(text_.peek_word()) +
                                                     "; repair or export the model again");
       position[axis] = *value;
     }
@@ -45,7 +45,7 @@ class ObjReader {
     while (!text_.at_line_end()) {
       const auto index = text_.integer();
       if (!index)
-        return context_.unusable(text_.place(), "expected a vertex index, found " + quoted(text_.peek_word()));
+        return context_.unusable(text_.place(), "expected a vertex index, found " + in_quotes(text_.peek_word()));
       text_.skip_word();  // the texture's and the normal's index
       const auto count = static_cast<long long>(mesh_.mesh().vertices.size());
       const long long corner = *index > 0 ? *index - 1 : *index < 0 && *index >= -count ? count + *index : -1;

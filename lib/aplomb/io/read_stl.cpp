@@ -51,7 +51,7 @@ class AsciiReader {
     if (same_word(word, "endfacet")) return end_facet(start);
     if (same_word(word, "outer") || same_word(word, "loop") || same_word(word, "endloop")) return {};
     if (in_facet_ || !(same_word(word, "solid") || same_word(word, "endsolid")))
-      return context_.unusable(start.place(), quoted(word) + " is no word of an ASCII STL; save it again");
+      return context_.unusable(start.place(), in_quotes(word) + " is no word of an ASCII STL; save it again");
     ended_ = same_word(word, "endsolid");
     if (const std::string_view name = text_.rest_of_line(); !ended_ && name_.empty()) name_ = name;
     return {};
@@ -74,7 +74,7 @@ class AsciiReader {
     for (int axis = 0; axis < 3; ++axis) {
       const auto value = text_.number();
       if (!value)
-        return context_.unusable(text_.place(), "expected a finite coordinate, found " + quoted(text_.peek_word()) +
+        return context_.unusable(text_.place(), "expected a finite coordinate, found " + in_quotes(text_.peek_word()) +
                                                     "; repair or export the model again");
       position[axis] = static_cast<float>(*value);  // STL is a float32 format, however it is written
     }

@@ -25,7 +25,7 @@ Result<void> ReadContext::admit(std::size_t vertices, std::size_t triangles, std
   // In floating point, where no sum wraps around.
   const double bytes = static_cast<double>(vertices) * sizeof(Vec3) +
                        static_cast<double>(triangles) * sizeof(Triangle) + static_cast<double>(work_bytes) +
-                       static_cast<double>(bytes_.size());
+                       static_cast<double>(work_bytes_) + static_cast<double>(bytes_.size());
   if (bytes > static_cast<double>(options_.memory_bytes) || vertices > kMaxIndices)
     return fail(ErrorCode::over_budget, name_ + ": reading it needs " + megabytes(bytes) + ", the budget is " +
                                             megabytes(static_cast<double>(options_.memory_bytes)) +
@@ -67,7 +67,7 @@ bool GrowingMesh::grow_triangles() {
   return true;
 }
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   std::string shown = "\"";
   for (const char c : text.substr(0, 40)) shown += static_cast<unsigned char>(c) < 32 || c == 127 ? '?' : c;
   return shown + (text.size() > 40 ? "...\"" : "\"");

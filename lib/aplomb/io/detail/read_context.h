@@ -27,6 +27,10 @@ class ReadContext {
   /// over_budget unless this many vertices and triangles, with `work_bytes` and the file itself, fit the budget.
   Result<void> admit(std::size_t vertices, std::size_t triangles, std::size_t work_bytes = 0) const;
 
+  /// What a reader holds besides the file and the mesh at hand; counts in every later admit().
+  void set_work_bytes(std::size_t work_bytes) { work_bytes_ = work_bytes; }
+  std::size_t work_bytes() const { return work_bytes_; }
+
   /// False: the caller wants to stop.
   bool proceed(double fraction) const { return job_.report(fraction, "read"); }
 
@@ -39,6 +43,7 @@ class ReadContext {
   const ReadOptions& options_;
   const Job& job_;
   std::vector<std::string> notes_;
+  std::size_t work_bytes_ = 0;
 };
 
 /// A mesh that grows within the budget: capacity is asked for before it is taken.
@@ -75,6 +80,6 @@ class GrowingMesh {
 };
 
 /// Text from a file made fit for a message: at most 40 characters, no control characters, in quotes.
-std::string quoted(std::string_view text);
+std::string in_quotes(std::string_view text);
 
 }  // namespace aplomb::detail

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <pugixml.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "aplomb/core/vec.h"
+#include "aplomb/io/detail/read_context.h"
+
+namespace aplomb::detail {
+
+using ResourceId = std::uint32_t;
+
+/// A reference to an object of this model part, or of another (production extension), moved.
+struct ThreemfReference {
+  ResourceId id = 0;
+  std::string path;   ///< empty: the part at hand
+  Affine3 transform;  ///< translation in millimetres
+  bool printable = true;
+};
+
+struct ThreemfObject {
+  std::string name;
+  std::string type;   ///< "model" unless the file says otherwise
+  TriangleMesh mesh;  ///< in millimetres
+  std::vector<ThreemfReference> components;
+  bool is_known_shape = false;  ///< has a mesh or components, not only an extension's geometry
+};
+
+/// One .model part of a 3MF package.
+struct ThreemfPart {
+  double unit_mm = 1;
+  std::map<ResourceId, ThreemfObject> objects;
+  std::vector<ThreemfReference> items;
+};
+
+/// Reads a model part. Indices are in range, ids unique, coordinates and transforms finite, transforms invertible.
+/// `name` stands in messages; `xml` is destroyed.
+Result<ThreemfPart> read_threemf_part(ReadContext& context, std::string_view name, std::string xml);
+
+/// Parses XML that may cost memory, and may have no DTD (3MF core specification). \pre `xml` outlives the document.
+Result<void> parse_xml(const ReadContext& context, std::string_view name, std::string& xml,
+                       pugi::xml_document& document);
+
+/// An element's or attribute's name without its prefix.
+std::string_view local_name(std::string_view name);
+
+/// An attribute's value by its local name; empty when it is missing.
+std::string_view attribute(const pugi::xml_node& node, std::string_view local);
+
+}  // namespace aplomb::detail
