@@ -82,7 +82,8 @@ TEST(MeshFormats, ObjTakesNegativeIndicesTextureAndNormalIndicesAndContinuedLine
 /// Area along z of the triangles a polygon is cut into; negative where one is turned over.
 std::vector<double> cut_areas(const std::vector<Vec2>& polygon) {
   std::string text;
-  for (const Vec2 p : polygon) text.append("v ").append(std::to_string(p.x)).append(" ").append(std::to_string(p.y)).append(" 3\n");
+  for (const Vec2 p : polygon)
+    text.append("v ").append(std::to_string(p.x)).append(" ").append(std::to_string(p.y)).append(" 3\n");
   text += "f";
   for (std::size_t i = 1; i <= polygon.size(); ++i) text += " " + std::to_string(i);
   const TriangleMesh mesh = read_text(text + "\n", "a.obj")->objects[0].mesh;
@@ -123,7 +124,8 @@ TEST(MeshFormats, WrittenStlCannotBeTakenForAscii) {
   std::uniform_real_distribution<float> coordinate(0, 100);
   for (int round = 0; round < 2000; ++round) {
     TriangleMesh mesh;
-    for (int i = 0; i < 3; ++i) mesh.vertices.push_back({std::round(coordinate(random)), std::round(coordinate(random)), 0.5});
+    for (int i = 0; i < 3; ++i)
+      mesh.vertices.push_back({std::round(coordinate(random)), std::round(coordinate(random)), 0.5});
     mesh.triangles = {{0, 1, 2}};
     const std::string stl = text_of(encode_mesh(mesh, MeshFormat::stl).value());
     EXPECT_FALSE(stl.starts_with("solid"));
