@@ -1,0 +1,101 @@
+#include "aplomb/report/json.h"
+
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+namespace aplomb {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double degrees(double angle_rad) { return angle_rad * 180 / std::numbers::pi; }
+
+Json json(Vec3 v) { return Json::array({v.x, v.y, v.z}); }
+
+Json json(const Pedestal& pedestal) {
+  return {{"center_mm", json(pedestal.center_mm)},
+          {"radius_mm", pedestal.radius_mm},
+          {"thickness_mm", pedestal.thickness_mm}};
+}
+
+Json json(const Standing& standing) {
+  const Stability& s = standing.stability;
+  Json corners = Json::array(), variants = Json::array();
+  for (const Vec3& corner : standing.support.corners_in_model_mm()) corners.push_back(json(corner));
+  for (const ContactVariant& v : standing.variants)
+    variants.push_back(
+        {{"contact_height_mm", v.contact_height_mm}, {"tip_deg", degrees(v.tip_rad)}, {"area_mm2", v.area_mm2}});
+  Json object{
+      {"mass_g", s.mass_g},
+      {"volume_mm3", s.volume_mm3},
+      {"com_mm", json(s.com_mm)},
+      {"com_height_mm", s.com_height_mm},
+      {"margin_mm", s.margin_mm},
+      {"tip_deg", degrees(s.tip_rad)},
+      {"robust_tip_deg", degrees(s.robust_tip_rad)},
+      {"weak_edge",
+       {{"from_mm", json(s.weak_edge_mm[0])}, {"to_mm", json(s.weak_edge_mm[1])}, {"heading", json(s.heading)}}},
+      {"support_polygon_mm", corners},
+      {"support_area_mm2", standing.support.area_mm2()},
+      {"support_width_mm", standing.support.width_mm()},
+      {"topple_energy_j", s.topple_energy_j},
+      {"topple_push_n", s.topple_push_n},
+      {"push_height_mm", s.push_height_mm},
+      {"contact_variants", variants}};
+  if (standing.pedestal) object["pedestal"] = json(*standing.pedestal);
+  return object;
+}
+
+Json json(const CarvingFigures& c) {
+  return {{"aim", c.aim},
+          {"void_mm3", c.void_mm3},
+          {"bound_deg", degrees(c.bound_rad)},
+          {"gap_deg", degrees(c.gap_rad)},
+          {"planes", c.planes}};
+}
+
+Json json(const MeshFigures& m) {
+  return {{"outer_unchanged", m.outer_unchanged},
+          {"closed", m.closed},
+          {"self_intersections", m.self_intersections},
+          {"voids", m.voids},
+          {"triangles", m.triangles}};
+}
+
+}  // namespace
+
+std::string to_string(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::already_stands:
+      return "already_stands";
+    case Outcome::stands:
+      return "stands";
+    case Outcome::best_effort:
+      return "best_effort";
+    case Outcome::falls:
+      break;
+  }
+  return "falls";
+}
+
+std::string to_json(const Report& report) {
+  Json object{{"version", report.version},
+              {"outcome", to_string(report.outcome)},
+              {"required_tip_deg", degrees(report.required_tip_rad)},
+              {"before", json(report.before)}};
+  if (report.after) object["after"] = json(*report.after);
+  if (report.carving) object["carving"] = json(*report.carving);
+  if (report.wall) object["wall_mm"] = {{"required", report.wall->required_mm}, {"measured", report.wall->measured_mm}};
+  if (report.mesh) object["mesh"] = json(*report.mesh);
+  object["repair"] = report.repair;
+  object["hints"] = report.hints;
+  object["seconds"] = Json::object();
+  for (const auto& [stage, seconds] : report.stage_seconds) object["seconds"][stage] = seconds;
+  object["peak_memory_mb"] = report.peak_memory_mb;
+  object["options"] = Json::object();
+  for (const auto& [name, value] : report.options)
+    std::visit([&, &key = name](const auto& v) { object["options"][key] = v; }, value);
+  return object.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace aplomb

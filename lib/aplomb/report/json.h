@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "aplomb/report/report.h"
+
+namespace aplomb {
+
+/// The report as JSON, indented, its keys in a fixed order and stable between versions; mm and degrees. Points are
+/// [x, y, z] in the model's own coordinates. What the report lacks has no key.
+std::string to_json(const Report& report);
+
+/// "already_stands", "stands", "best_effort" or "falls".
+std::string to_string(Outcome outcome);
+
+}  // namespace aplomb

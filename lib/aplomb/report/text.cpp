@@ -1,0 +1,150 @@
+#include "aplomb/report/text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <locale>
+#include <numbers>
+#include <sstream>
+#include <string_view>
+
+namespace aplomb {
+namespace {
+
+std::string number(double value, int decimals) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text.setf(std::ios::fixed);
+  text.precision(decimals);
+  const double unit = std::pow(10.0, -decimals);
+  text << (std::abs(value) < unit / 2 ? 0.0 : value);  // no "-0.0"
+  return text.str();
+}
+
+/// A tip angle in degrees; a small negative one is not rounded to a standing 0.
+std::string degrees(double angle_rad) {
+  const double angle_deg = angle_rad * 180 / std::numbers::pi;
+  return number(angle_deg, std::abs(angle_deg) < 0.1 && angle_deg != 0 ? 3 : 1);
+}
+
+/// Three significant digits, or whole numbers above.
+std::string figure(double value) {
+  const int digits_before = value == 0 ? 1 : static_cast<int>(std::floor(std::log10(std::abs(value)))) + 1;
+  return number(value, std::clamp(3 - digits_before, 0, 6));
+}
+
+std::string point(Vec3 p) {
+  return std::string("(") + number(p.x, 1) + ", " + number(p.y, 1) + ", " + number(p.z, 1) + ") mm";
+}
+
+std::string line(std::string_view name, const std::string& text) {
+  std::string padded(name);
+  padded.resize(18, ' ');
+  return "  " + padded + text + "\n";
+}
+
+std::string weakest(const Stability& s) { return "weakest towards " + direction_word(s.heading); }
+
+std::string variants_text(const Standing& standing) {
+  std::string text;
+  for (const ContactVariant& v : standing.variants)
+    text += (text.empty() ? "" : ", ") + degrees(v.tip_rad) + " with " + figure(v.contact_height_mm) + " mm";
+  const auto [least, most] =
+      std::minmax_element(standing.variants.begin(), standing.variants.end(),
+                          [](const ContactVariant& a, const ContactVariant& b) { return a.tip_rad < b.tip_rad; });
+  const double fragile_rad = 2 * std::numbers::pi / 180;
+  return text +
+         (most->tip_rad - least->tip_rad > fragile_rad ? " touching: fragile, it rests on a sliver" : " touching");
+}
+
+std::string figures(const Standing& standing) {
+  const Stability& s = standing.stability;
+  std::string text =
+      line("mass", figure(s.mass_g) + " g, " + figure(s.volume_mm3 * 1e-3) + " cm3") +
+      line("centre of mass", point(s.com_mm) + ", " + number(s.com_height_mm, 1) + " mm above the plate") +
+      line("support polygon", figure(standing.support.area_mm2()) + " mm2, " + figure(standing.support.width_mm()) +
+                                  " mm at its narrowest, " + std::to_string(standing.support.corners_mm.size()) +
+                                  " corners") +
+      line("margin", number(s.margin_mm, 2) + " mm, " + weakest(s) + ", over the edge " + point(s.weak_edge_mm[0]) +
+                         " to " + point(s.weak_edge_mm[1])) +
+      line("tip angle",
+           degrees(s.tip_rad) + " degrees; " + degrees(s.robust_tip_rad) + " at the worst of the tolerances") +
+      line("", variants_text(standing));
+  if (s.tip_rad > 0)
+    text += line("to topple it", figure(s.topple_energy_j * 1e3) + " mJ, or " + figure(s.topple_push_n) +
+                                     " N sideways " + number(s.push_height_mm, 1) + " mm up");
+  if (standing.pedestal)
+    text += line("pedestal", "a disc of " + number(2 * standing.pedestal->radius_mm, 1) + " mm across, " +
+                                 number(standing.pedestal->thickness_mm, 1) + " mm thick, around " +
+                                 point(standing.pedestal->center_mm) + " would do");
+  return text;
+}
+
+std::string work(const Report& report) {
+  std::string text;
+  if (report.carving)
+    text += line("void", figure(report.carving->void_mm3 * 1e-3) + " cm3; no void gives more than " +
+                             degrees(report.carving->bound_rad) + " degrees (aim " + report.carving->aim + ", " +
+                             std::to_string(report.carving->planes) + " planes)");
+  if (report.wall)
+    text += line("wall", number(report.wall->measured_mm, 3) + " mm measured, " + number(report.wall->required_mm, 3) +
+                             " asked");
+  if (report.mesh)
+    text +=
+        line("mesh", std::to_string(report.mesh->triangles) + " triangles, " + std::to_string(report.mesh->voids) +
+                         (report.mesh->voids == 1 ? " void, " : " voids, ") +
+                         (report.mesh->closed && report.mesh->self_intersections == 0 ? "closed, no self-intersection"
+                                                                                      : "not sound") +
+                         (report.mesh->outer_unchanged ? ", outside unchanged" : ""));
+  return text;
+}
+
+}  // namespace
+
+std::string direction_word(Vec3 direction) {
+  std::string word;
+  const double threshold = std::sin(std::numbers::pi / 8) * norm(direction);  // half-way to the diagonal
+  for (int axis = 0; axis < 3; ++axis)
+    if (std::abs(direction[axis]) > threshold) word += {direction[axis] < 0 ? '-' : '+', "xyz"[axis]};
+  return word.empty() ? "no side" : word;
+}
+
+std::string verdict(const Report& report) {
+  const Stability& now = (report.after ? *report.after : report.before).stability;
+  const std::string angle = degrees(now.tip_rad) + " degrees", asked = degrees(report.required_tip_rad);
+  switch (report.outcome) {
+    case Outcome::already_stands:
+      return "Stands: " + angle + " (" + weakest(now) + "; " + asked + " asked)";
+    case Outcome::stands:
+      return "Stands now: " + angle + " (" + weakest(now) + "; " + asked + " asked, " +
+             degrees(report.before.stability.tip_rad) + " before)";
+    case Outcome::best_effort:
+      return "Cannot reach " + asked + " degrees: " + angle + " at best (" + weakest(now) + "; " +
+             degrees(report.before.stability.tip_rad) + " before)";
+    case Outcome::falls:
+      break;
+  }
+  if (!now.can_stand) return "Cannot stand: it touches the plate in fewer than three points that are not in line";
+  if (now.tip_rad > 0) return "Stands, but barely: " + angle + " (" + weakest(now) + "; " + asked + " asked)";
+  return "Falls: tips over to the " + direction_word(now.heading) + " side, " + angle + " (" + asked + " asked)";
+}
+
+std::string to_text(const Report& report) {
+  std::string text = verdict(report) + "\n";
+  if (report.after) text += "before\n" + figures(report.before) + "after\n" + figures(*report.after) + work(report);
+  else text += figures(report.before) + work(report);
+  for (const std::string& sentence : report.repair) text += line("repair", sentence);
+  for (const std::string& sentence : report.hints) text += "hint: " + sentence + "\n";
+  return text;
+}
+
+std::string to_text(const RestingHint& hint) {
+  if (!hint.up)
+    return "it seems to lie flat: as it is, it falls by " + degrees(-hint.given_tip_rad) +
+           " degrees; if another way is up, say so with --up";
+  std::string axis = direction_word(*hint.up);
+  if (axis.front() == '+') axis.erase(0, 1);
+  return "it seems to lie: with --up " + axis + " it would stand by itself (" + degrees(hint.suggested_tip_rad) +
+         " degrees instead of " + degrees(hint.given_tip_rad) + ")";
+}
+
+}  // namespace aplomb
