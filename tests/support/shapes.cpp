@@ -12,9 +12,7 @@ namespace {
 
 using Index = std::uint32_t;
 
-Index index_of(std::size_t i) {
-  return static_cast<Index>(i);
-}
+Index index_of(std::size_t i) { return static_cast<Index>(i); }
 
 /// The vertex half-way between two others, on the sphere, made once per edge.
 Index midpoint(TriangleMesh& mesh, std::map<std::pair<Index, Index>, Index>& made, Index a, Index b) {
@@ -46,8 +44,7 @@ TriangleMesh icosahedron() {
 }  // namespace
 
 TriangleMesh box(Vec3 min, Vec3 max) {
-  return prism({{min.x, min.y}, {max.x, min.y}, {max.x, max.y}, {min.x, max.y}}, min.z,
-               {0, 0, max.z - min.z});
+  return prism({{min.x, min.y}, {max.x, min.y}, {max.x, max.y}, {min.x, max.y}}, min.z, {0, 0, max.z - min.z});
 }
 
 TriangleMesh tetrahedron(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
@@ -86,13 +83,11 @@ std::vector<Vec2> regular_polygon(double radius_mm, int segments) {
   return corners;
 }
 
-TriangleMesh frustum(Vec3 base_mm, double bottom_radius_mm, double top_radius_mm, double height_mm,
-                     int segments) {
+TriangleMesh frustum(Vec3 base_mm, double bottom_radius_mm, double top_radius_mm, double height_mm, int segments) {
   TriangleMesh mesh;
   const auto ring = [&](double radius_mm, double z_mm) {  // first vertex of the ring, or the apex
     const std::size_t first = mesh.vertices.size();
-    if (radius_mm == 0)
-      mesh.vertices.push_back(base_mm + Vec3{0, 0, z_mm});
+    if (radius_mm == 0) mesh.vertices.push_back(base_mm + Vec3{0, 0, z_mm});
     else
       for (const Vec2& p : regular_polygon(radius_mm, segments))
         mesh.vertices.push_back(base_mm + Vec3{p.x, p.y, z_mm});
@@ -112,8 +107,7 @@ TriangleMesh frustum(Vec3 base_mm, double bottom_radius_mm, double top_radius_mm
   for (std::size_t i = 1; i + 1 < n; ++i) {
     if (bottom_radius_mm != 0)
       mesh.triangles.push_back({index_of(bottom), index_of(bottom + i + 1), index_of(bottom + i)});
-    if (top_radius_mm != 0)
-      mesh.triangles.push_back({index_of(top), index_of(top + i), index_of(top + i + 1)});
+    if (top_radius_mm != 0) mesh.triangles.push_back({index_of(top), index_of(top + i), index_of(top + i + 1)});
   }
   return mesh;
 }
@@ -148,8 +142,8 @@ TriangleMesh torus(Vec3 center_mm, double major_radius_mm, double minor_radius_m
   const std::vector<Vec2> profile = regular_polygon(minor_radius_mm, minor_segments);
   for (const Vec2& around : regular_polygon(1, major_segments))
     for (const Vec2& p : profile)
-      mesh.vertices.push_back(
-          center_mm + Vec3{(major_radius_mm + p.x) * around.x, (major_radius_mm + p.x) * around.y, p.y});
+      mesh.vertices.push_back(center_mm +
+                              Vec3{(major_radius_mm + p.x) * around.x, (major_radius_mm + p.x) * around.y, p.y});
   const auto vertex = [&](int i, int j) {
     return index_of(static_cast<std::size_t>(i % major_segments) * profile.size() +
                     static_cast<std::size_t>(j % minor_segments));
@@ -166,21 +160,16 @@ TriangleMesh with_void(TriangleMesh outer, TriangleMesh inner) {
   return joined(std::move(outer), reversed(std::move(inner)));
 }
 
-Affine3 translation(Vec3 by_mm) {
-  return {{}, by_mm};
-}
+Affine3 translation(Vec3 by_mm) { return {{}, by_mm}; }
 
-Affine3 scaling(double factor) {
-  return {{{{{factor, 0, 0}, {0, factor, 0}, {0, 0, factor}}}}, {}};
-}
+Affine3 scaling(double factor) { return {{{{{factor, 0, 0}, {0, factor, 0}, {0, 0, factor}}}}, {}}; }
 
 Affine3 rotation(Vec3 axis, double angle_rad) {
   const Vec3 u = normalized(axis);
   const double c = std::cos(angle_rad), s = std::sin(angle_rad);
-  const Mat3 linear{
-      {{{c + (1 - c) * u.x * u.x, (1 - c) * u.x * u.y - s * u.z, (1 - c) * u.x * u.z + s * u.y},
-        {(1 - c) * u.y * u.x + s * u.z, c + (1 - c) * u.y * u.y, (1 - c) * u.y * u.z - s * u.x},
-        {(1 - c) * u.z * u.x - s * u.y, (1 - c) * u.z * u.y + s * u.x, c + (1 - c) * u.z * u.z}}}};
+  const Mat3 linear{{{{c + (1 - c) * u.x * u.x, (1 - c) * u.x * u.y - s * u.z, (1 - c) * u.x * u.z + s * u.y},
+                      {(1 - c) * u.y * u.x + s * u.z, c + (1 - c) * u.y * u.y, (1 - c) * u.y * u.z - s * u.x},
+                      {(1 - c) * u.z * u.x - s * u.y, (1 - c) * u.z * u.y + s * u.x, c + (1 - c) * u.z * u.z}}}};
   return {linear, {}};
 }
 

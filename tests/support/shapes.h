@@ -26,8 +26,7 @@ TriangleMesh leaning_prism(double width_mm, double depth_mm, double height_mm, d
 std::vector<Vec2> regular_polygon(double radius_mm, int segments);
 
 /// A frustum over a regular polygon, from base_mm up; a radius of 0 gives an apex. Not both radii may be 0.
-TriangleMesh frustum(Vec3 base_mm, double bottom_radius_mm, double top_radius_mm, double height_mm,
-                     int segments);
+TriangleMesh frustum(Vec3 base_mm, double bottom_radius_mm, double top_radius_mm, double height_mm, int segments);
 TriangleMesh cylinder(Vec3 base_mm, double radius_mm, double height_mm, int segments);
 TriangleMesh cone(Vec3 base_mm, double radius_mm, double height_mm, int segments);
 

@@ -86,8 +86,7 @@ TEST(Moments, OfABodyWithAVoidAreTheDifference) {
 TEST(Moments, KeepTheirDigitsFarFromTheOrigin) {
   const Vec3 far{1e5, -1e5, 1e5};
   const TriangleMesh near_mesh = test::leaning_prism(10, 12, 30, 7);
-  const Moments near_body = moments(near_mesh),
-                far_body = moments(transformed(near_mesh, test::translation(far)));
+  const Moments near_body = moments(near_mesh), far_body = moments(transformed(near_mesh, test::translation(far)));
   EXPECT_NEAR(far_body.volume_mm3, near_body.volume_mm3, 1e-7);
   expect_near(far_body.centroid_mm() - far, near_body.centroid_mm(), 1e-9);
 }

@@ -16,8 +16,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr double degree = pi / 180;
 
-Stability stability_of(const TriangleMesh& mesh, const StandingPose& pose = {},
-                       double density_g_per_cm3 = 1.24) {
+Stability stability_of(const TriangleMesh& mesh, const StandingPose& pose = {}, double density_g_per_cm3 = 1.24) {
   const Result<SupportPolygon> support = support_polygon(mesh, pose);
   EXPECT_TRUE(support.has_value());
   const Region body{moments(mesh), density_g_per_cm3};
@@ -40,8 +39,8 @@ TEST(Stability, OfAConeFrustumFollowsTheClosedForm) {
   const double r = 5, s = 2, h = 8;
   const int n = 24;
   const double com_height = h / 4 * (r * r + 2 * r * s + 3 * s * s) / (r * r + r * s + s * s);
-  EXPECT_NEAR(stability_of(test::frustum({7, 8, 9}, r, s, h, n)).tip_rad,
-              std::atan2(r * std::cos(pi / n), com_height), 1e-12);
+  EXPECT_NEAR(stability_of(test::frustum({7, 8, 9}, r, s, h, n)).tip_rad, std::atan2(r * std::cos(pi / n), com_height),
+              1e-12);
 }
 
 TEST(Stability, OfALyingTorusFollowsTheClosedForm) {

@@ -28,8 +28,7 @@ double farthest_corner_mm(const SupportPolygon& support) {
 bool is_strictly_convex_and_counter_clockwise(const std::vector<Vec2>& corners) {
   const std::size_t n = corners.size();
   for (std::size_t i = 0; i < n; ++i)
-    if (cross(corners[(i + 1) % n] - corners[i], corners[(i + 2) % n] - corners[(i + 1) % n]) <= 0)
-      return false;
+    if (cross(corners[(i + 1) % n] - corners[i], corners[(i + 2) % n] - corners[(i + 1) % n]) <= 0) return false;
   return n >= 3;
 }
 
@@ -67,8 +66,7 @@ TEST(SupportPolygon, OfABallIsTheCircleAtTheContactHeight) {
 
 TEST(SupportPolygon, OfALyingTorusReachesTheCircleAtTheContactHeight) {
   const double major = 30, minor = 5, tau = 0.3, exact = major + std::sqrt(2 * minor * tau - tau * tau);
-  const SupportPolygon support =
-      support_of(test::torus({}, major, minor, 600, 400), {.contact_height_mm = tau});
+  const SupportPolygon support = support_of(test::torus({}, major, minor, 600, 400), {.contact_height_mm = tau});
   EXPECT_NEAR(farthest_corner_mm(support), exact, 2e-3);
   EXPECT_NEAR(support.area_mm2(), pi * exact * exact, 0.3);
 }
@@ -105,8 +103,7 @@ TEST(SupportPolygon, TakesOnlyTheFeetThatAreNamed) {
 }
 
 TEST(SupportPolygon, OfANamedPatchInTheMiddleOfAFaceIsTheDisc) {
-  const SupportPolygon support =
-      support_of(test::box({-10, -10, 0}, {10, 10, 5}), {.contacts = {{{1, 2, 0.5}, 1.3}}});
+  const SupportPolygon support = support_of(test::box({-10, -10, 0}, {10, 10, 5}), {.contacts = {{{1, 2, 0.5}, 1.3}}});
   const double disc_radius = std::sqrt(1.3 * 1.3 - 0.25);
   EXPECT_GE(support.area_mm2(), 64 * std::sin(2 * pi / 128) * disc_radius * disc_radius - 1e-9);
   EXPECT_LE(support.area_mm2(), pi * disc_radius * disc_radius);
@@ -114,8 +111,7 @@ TEST(SupportPolygon, OfANamedPatchInTheMiddleOfAFaceIsTheDisc) {
 }
 
 TEST(SupportPolygon, OfAPatchOverAnEdgeIsTheDiscCutByTheBase) {
-  const SupportPolygon support =
-      support_of(test::box({0, -10, 0}, {10, 10, 5}), {.contacts = {{{0, 0, 0}, 2}}});
+  const SupportPolygon support = support_of(test::box({0, -10, 0}, {10, 10, 5}), {.contacts = {{{0, 0, 0}, 2}}});
   EXPECT_NEAR(support.area_mm2(), pi * 4 / 2, 5e-3);
   for (const Vec2& corner : support.corners_mm) EXPECT_GE(corner.x, 0);
 }
@@ -153,8 +149,7 @@ TEST(SupportPolygon, SaysWhenNamedContactsAreNotOnTheSurfaceAtAll) {
   const Result<SupportPolygon> support =
       support_polygon(test::box({0, 0, 0}, {2, 2, 5}), {.contacts = {{{100, 0, 0}, 1}}});
   ASSERT_FALSE(support);
-  EXPECT_NE(support.error().message.find("no part of the surface"), std::string::npos)
-      << support.error().message;
+  EXPECT_NE(support.error().message.find("no part of the surface"), std::string::npos) << support.error().message;
 }
 
 TEST(SupportPolygon, WidthIsTheSmallestAltitude) {
