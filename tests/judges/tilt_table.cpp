@@ -8,6 +8,7 @@
 
 #include <btBulletDynamicsCommon.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <memory>
@@ -55,8 +56,8 @@ Body read_body(std::istream& in) {
   return body;
 }
 
-/// The body on its support polygon, cut into a fan of thin wedges: Bullet keeps four contact points a convex piece,
-/// and so all corners of the polygon.
+/// The body on its support polygon, as thin plates with four of its corners each: Bullet keeps four contact points a
+/// convex piece, and so every corner of the polygon bears.
 class TiltTable {
  public:
   explicit TiltTable(const Body& body) : dispatcher_(&configuration_) {
@@ -73,8 +74,8 @@ class TiltTable {
     body_->setActivationState(DISABLE_DEACTIVATION);
     plane_ = std::make_unique<btStaticPlaneShape>(btVector3(0, 0, 1), body.plate);
     plane_->setMargin(0);
-    plate_ = std::make_unique<btRigidBody>(btRigidBody::btRigidBodyConstructionInfo(0, nullptr, plane_.get()));
-    plate_->setFriction(100);
+    table_ = std::make_unique<btRigidBody>(btRigidBody::btRigidBodyConstructionInfo(0, nullptr, plane_.get()));
+    table_->setFriction(100);
   }
 
   /// Leans the table slowly and waits. Seen from the table it is gravity that leans, which is how it is done here.
@@ -88,7 +89,7 @@ class TiltTable {
     body_->setAngularVelocity({0, 0, 0});
     body_->setWorldTransform(start_);
     body_->setInterpolationWorldTransform(start_);
-    world.addRigidBody(plate_.get());
+    world.addRigidBody(table_.get());
     world.addRigidBody(body_.get());
     const double duration_s = tilt_rad / ramp_rad_per_s + hold_s;
     bool standing = true;
@@ -102,7 +103,7 @@ class TiltTable {
       standing = std::abs(turned.getAngleShortestPath()) < fallen_rad;
     }
     world.removeRigidBody(body_.get());
-    world.removeRigidBody(plate_.get());
+    world.removeRigidBody(table_.get());
     return standing;
   }
 
@@ -110,28 +111,30 @@ class TiltTable {
   void add_feet(const Body& body, const btMatrix3x3& axes) {
     const btScalar thickness = btScalar(0.1);
     feet_.setMargin(0);
-    for (std::size_t i = 1; i + 1 < body.polygon.size(); ++i) {
-      auto wedge = std::make_unique<btConvexHullShape>();
-      wedge->setMargin(0);
-      for (const btVector3& corner : {body.polygon[0], body.polygon[i], body.polygon[i + 1]}) {
-        wedge->addPoint(axes.transpose() * (corner - body.centroid), false);
-        wedge->addPoint(axes.transpose() * (corner + btVector3(0, 0, thickness) - body.centroid), false);
+    const std::size_t corners = body.polygon.size();
+    for (std::size_t first = 0; first < corners; first += 3) {
+      auto plate = std::make_unique<btConvexHullShape>();
+      plate->setMargin(0);
+      for (std::size_t i = first; i < first + std::min<std::size_t>(4, corners); ++i) {
+        const btVector3 below = body.polygon[i % corners] - body.centroid;
+        plate->addPoint(axes.transpose() * below, false);
+        plate->addPoint(axes.transpose() * (below + btVector3(0, 0, thickness)), false);
       }
-      wedge->recalcLocalAabb();
-      feet_.addChildShape(btTransform::getIdentity(), wedge.get());
-      wedges_.push_back(std::move(wedge));
+      plate->recalcLocalAabb();
+      feet_.addChildShape(btTransform::getIdentity(), plate.get());
+      plates_.push_back(std::move(plate));
     }
   }
 
   btDefaultCollisionConfiguration configuration_;
   btCollisionDispatcher dispatcher_;
   btDbvtBroadphase broadphase_;
-  std::vector<std::unique_ptr<btConvexHullShape>> wedges_;
+  std::vector<std::unique_ptr<btConvexHullShape>> plates_;
   btCompoundShape feet_;
   btTransform start_;
   std::unique_ptr<btRigidBody> body_;
   std::unique_ptr<btStaticPlaneShape> plane_;
-  std::unique_ptr<btRigidBody> plate_;
+  std::unique_ptr<btRigidBody> table_;
 };
 
 }  // namespace
