@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Lets programs by others judge a shell: judge.py (prusaslicer | manifold | tilt) SHELL [--report JSON] [--table EXE]
+"""Lets programs by others judge a shell: judge.py prusaslicer SHELL, judge.py manifold SHELL, or
+judge.py tilt SHELL --report JSON --table EXE [--contact-height-mm H].
 
 SHELL is a 3MF or binary STL as Aplomb writes it. Every judge prints what it measured and ends with 1 when the shell
 does not hold what it promises.
@@ -110,12 +111,12 @@ def manifold(path):
     return verdict
 
 
-def tilt(path, report, table):
+def tilt(path, report, table, contact_height_mm):
     """The report's numbers are the file's, and on Bullet's tilt table the body stands exactly as far as it says."""
     verdict = Verdict()
     mesh = shells.read(path)
     body = shells.body(mesh)
-    polygon = shells.support_polygon(mesh, report["options"]["contact_height_mm"])
+    polygon = shells.support_polygon(mesh, contact_height_mm)
     after = report["after"]
     error = relative(after["volume_mm3"], body.volume)
     verdict.expect("volume of the report", abs(error) < 1e-6, f"{error:+.1e}")
@@ -196,10 +197,11 @@ def main():
     parser.add_argument("shell")
     parser.add_argument("--report")
     parser.add_argument("--table")
+    parser.add_argument("--contact-height-mm", type=float, default=0.1)
     arguments = parser.parse_args()
     if arguments.judge == "tilt":
         with open(arguments.report) as file:
-            verdict = tilt(arguments.shell, json.load(file), arguments.table)
+            verdict = tilt(arguments.shell, json.load(file), arguments.table, arguments.contact_height_mm)
     else:
         verdict = {"prusaslicer": prusaslicer, "manifold": manifold}[arguments.judge](arguments.shell)
     return 1 if verdict.wrong else 0

@@ -79,8 +79,7 @@ class Tilt(unittest.TestCase):
     def judgement(self, mesh, promised_deg, **changes):
         body = shells.body(mesh)
         after = {"volume_mm3": body.volume, "com_mm": body.centroid, "tip_deg": promised_deg, **changes}
-        report = {"after": after, "options": {"contact_height_mm": 0.001}}
-        return wrong_in_file(judge.tilt, mesh, report, TABLE)
+        return wrong_in_file(judge.tilt, mesh, {"after": after}, TABLE, 0.001)
 
     def test_passes_the_closed_form_of_a_box(self):
         self.assertEqual(self.judgement(leaning_box((0, 0, 0), (20, 30, 60)), math.degrees(math.atan(20 / 60))), [])
