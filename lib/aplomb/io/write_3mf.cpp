@@ -111,6 +111,7 @@ class ZipWriter {
         archive_, [](zip_t*, void* data) { return static_cast<Progress*>(data)->stop ? 1 : 0; }, nullptr, &progress);
     if (zip_close(archive_) != 0) return progress.stop ? cancelled() : failure();
     archive_ = nullptr;
+    if (progress.stop) return cancelled();  // at the very last report
     if (zip_source_open(source_) != 0) return failure();
     zip_stat_t status;
     zip_stat_init(&status);

@@ -3,7 +3,7 @@
 namespace aplomb::detail {
 namespace {
 
-constexpr std::uint64_t kMaxSteps = 3'000'000'000;  // some seconds
+constexpr std::uint64_t kMaxSteps = 500'000'000;  // two or three seconds
 
 }  // namespace
 

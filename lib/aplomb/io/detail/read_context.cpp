@@ -69,8 +69,8 @@ bool GrowingMesh::grow_triangles() {
 
 std::string in_quotes(std::string_view text) {
   std::string shown = "\"";
-  for (const char c : text.substr(0, 40)) shown += static_cast<unsigned char>(c) < 32 || c == 127 ? '?' : c;
-  return shown + (text.size() > 40 ? "...\"" : "\"");
+  for (const char c : text.substr(0, 80)) shown += static_cast<unsigned char>(c) < 32 || c == 127 ? '?' : c;
+  return shown + (text.size() > 80 ? "...\"" : "\"");
 }
 
 }  // namespace aplomb::detail

@@ -79,7 +79,7 @@ class GrowingMesh {
   Error failure_;
 };
 
-/// Text from a file made fit for a message: at most 40 characters, no control characters, in quotes.
+/// Text from a file made fit for a message: at most 80 characters, no control characters, in quotes.
 std::string in_quotes(std::string_view text);
 
 }  // namespace aplomb::detail

@@ -1,0 +1,70 @@
+// What cannot be written is said, and leaves nothing behind.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "support/mesh_files.h"
+#include "support/shapes.h"
+
+namespace aplomb::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+void expect_file_error(const fs::path& target) {
+  const auto written = write_file_atomically(target, bytes_of("content"));
+  ASSERT_FALSE(written) << target;
+  EXPECT_EQ(written.error().code, ErrorCode::file_system);
+  EXPECT_NE(written.error().message.find(target.string()), std::string::npos) << written.error().message;
+}
+
+TEST(AtomicFileFails, OnAMissingFolderADirectoryAFileAsFolderAndALinkInACircle) {
+  const TempFolder folder;
+  write_text(folder / "file", "old");
+  fs::create_symlink("circle", folder / "circle");
+  expect_file_error(folder / "missing/a.stl");
+  expect_file_error(folder.path());
+  expect_file_error(folder / "file/a.stl");
+  expect_file_error(folder / "circle");
+  expect_file_error(folder / std::string(256, 'x'));
+  EXPECT_EQ(folder.entries(), 2u);
+}
+
+TEST(AtomicFileFails, OnAFullDisk) { expect_file_error("/dev/full"); }
+
+TEST(AtomicFileFails, InAReadOnlyFolderAndOnAReadOnlyFile) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
+  const TempFolder folder;
+  write_text(folder / "file", "old");
+  fs::permissions(folder / "file", fs::perms::owner_read);
+  expect_file_error(folder / "file");
+  fs::permissions(folder.path(), fs::perms::owner_read | fs::perms::owner_exec);
+  expect_file_error(folder / "new");
+  EXPECT_EQ(read_text_file(folder / "file"), "old");
+  EXPECT_EQ(folder.entries(), 1u);
+}
+
+TEST(WriteMeshFails, WhenThereIsNothingToWriteNoFormatOrNoRoomForACoordinate) {
+  const TempFolder folder;
+  TriangleMesh mesh = box({0, 0, 0}, {1, 1, 1});
+  EXPECT_EQ(write_mesh(folder / "a.stl", {}).error().code, ErrorCode::unusable_input);
+  EXPECT_EQ(write_mesh(folder / "a.step", mesh).error().code, ErrorCode::invalid_option);
+  mesh.vertices[3].y = 1e39;
+  EXPECT_EQ(write_mesh(folder / "a.stl", mesh).error().code, ErrorCode::unusable_input);
+  EXPECT_EQ(folder.entries(), 0u);
+}
+
+TEST(WriteMeshFails, AsCancelledAtEveryReport) {
+  const TriangleMesh mesh = sphere({}, 10, 4);
+  for (const MeshFormat format : {MeshFormat::three_mf, MeshFormat::stl, MeshFormat::obj, MeshFormat::ply})
+    for (int stop = 1;; ++stop) {
+      int reports = 0;
+      const auto bytes =
+          encode_mesh(mesh, format, {}, Job([&](double, std::string_view) { return ++reports != stop; }));
+      if (reports < stop) break;
+      ASSERT_FALSE(bytes) << stop;
+      EXPECT_EQ(bytes.error().code, ErrorCode::cancelled);
+    }
+}
+
+}  // namespace
+}  // namespace aplomb::test
