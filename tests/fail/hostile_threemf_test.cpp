@@ -107,7 +107,8 @@ TEST(HostileThreemf, VerticesTrianglesTransformsAndUnitsOutOfTheirRangeAreNamed)
                                 "1 0 0 0 1 0 0 0 1 0 0 0 0", "1 0 0 1 0 0 0 0 1 0 0 0"})
     expect_unusable_model(with("objectid=\"1\"", std::string("objectid=\"1\" transform=\"") + transform + "\""),
                           "transform");
-  expect_unusable_model(with("objectid=\"1\"", "objectid=\"1\" transform=\"3e38 0 0 0 1 0 0 0 1 3e38 0 0\""), "out of every range");
+  expect_unusable_model(with("objectid=\"1\"", "objectid=\"1\" transform=\"3e38 0 0 0 1 0 0 0 1 3e38 0 0\""),
+                        "out of every range");
 }
 
 TEST(HostileThreemf, AnExtensionThatShapesTheModelIsNamed) {
