@@ -24,10 +24,10 @@ constexpr double hold_s = 3;
 constexpr btScalar fallen_rad = btScalar(0.05);
 
 struct Body {
-  btVector3 centroid;                 // cm
-  btMatrix3x3 inertia;                // of the body at mass 1, cm2
-  btScalar plate = 0;                 // cm
-  std::vector<btVector3> polygon;     // cm, on the plate
+  btVector3 centroid;              // cm
+  btMatrix3x3 inertia;             // of the body at mass 1, cm2
+  btScalar plate = 0;              // cm
+  std::vector<btVector3> polygon;  // cm, on the plate
 };
 
 btVector3 read_vector(std::istream& in) {
