@@ -11,6 +11,8 @@
 namespace aplomb::test {
 namespace {
 
+using namespace std::string_literals;
+
 /// Fails the test unless reading ends in unusable_input whose message names the file and holds `words`.
 void expect_unusable(std::string_view text, std::string_view name, std::string_view words) {
   const auto file = read_text(text, name);
@@ -136,8 +138,8 @@ TEST(HostileMesh, TextThatIsNoMeshIsToldApart) {
   expect_unusable("", "a.stl", "empty");
   expect_unusable("hello", "a.stl", "neither");
   expect_unusable("hello", "a.txt", "neither");
-  expect_unusable(std::string("\xFF\xFEs\0o\0l\0i\0d\0", 12), "a.stl", "UTF-16");
-  expect_unusable(std::string("v 0 0\0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", 35), "a.obj", "line 1");
+  expect_unusable("\xFF\xFEs\0o\0l\0i\0d\0"s, "a.stl", "UTF-16");
+  expect_unusable("v 0 0\0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"s, "a.obj", "line 1");
   expect_unusable("v 0 0 0\n", "a.obj", "no triangles");
   expect_unusable("not a zip", "a.3mf", "zip");
   expect_unusable("nOFF\n3\n3 1 0\n", "a.off", "line 1");

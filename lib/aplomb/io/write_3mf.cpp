@@ -90,7 +90,7 @@ class ZipWriter {
     if (index < 0) return zip_source_free(part), false;
     constexpr std::uint16_t kMidnight = 0, kFirstDay1980 = (1 << 5) | 1;  // no clock in the bytes
     const auto entry = static_cast<zip_uint64_t>(index);
-    return zip_set_file_compression(archive_, entry, ZIP_CM_DEFLATE, 6) == 0 &&
+    return zip_set_file_compression(archive_, entry, ZIP_CM_DEFLATE, 3) == 0 &&
            zip_file_set_dostime(archive_, entry, kMidnight, kFirstDay1980, 0) == 0;
   }
 
