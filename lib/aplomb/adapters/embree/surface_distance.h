@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+
+#include "aplomb/mesh/triangle_mesh.h"
+
+namespace aplomb::adapters {
+
+/// Exact distances to a triangle mesh: Embree's bounding volume hierarchy finds the triangles, every distance to one
+/// is computed here in double precision (Ericson, Real-Time Collision Detection, 5.1.5).
+///
+/// \par Cost  Building: 0.06 s for 100k triangles. A query: 1 to 4 us there, ten times less than CGAL's AABB tree.
+class SurfaceDistance {
+ public:
+  static constexpr std::uint32_t no_triangle = std::numeric_limits<std::uint32_t>::max();
+
+  struct Closest {
+    double distance_mm = std::numeric_limits<double>::infinity();
+    std::uint32_t triangle = no_triangle;  ///< one of the closest ones
+  };
+
+  /// \pre mesh is not empty; its coordinates are float32 values.
+  explicit SurfaceDistance(const TriangleMesh& mesh);
+
+  /// The closest triangle. `hint`, a triangle believed to be close, makes the search quicker and never changes
+  /// the distance. Safe to call from several threads.
+  Closest closest(Vec3 point_mm, std::uint32_t hint = no_triangle) const;
+
+  /// Whether a point off the surface is inside, by the angle-weighted pseudonormal at its closest point
+  /// (Baerentzen and Aanaes 2005). \pre The mesh is closed and oriented, without self-intersection;
+  /// `nearest` was found for this point.
+  bool inside(Vec3 point_mm, const Closest& nearest) const;
+
+ private:
+  struct Impl;
+  std::shared_ptr<const Impl> impl_;
+};
+
+}  // namespace aplomb::adapters

@@ -1,0 +1,100 @@
+#include "aplomb/adapters/openvdb/field_operations.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "aplomb/mesh/clipped_tetrahedron.h"
+
+namespace aplomb::adapters {
+
+using openvdb::Coord;
+
+CornerValues corner_values(const FieldReader& reader, const Coord& origin) {
+  CornerValues values;
+  for (int i = 0; i < corner_size; ++i)
+    for (int j = 0; j < corner_size; ++j)
+      for (int k = 0; k < corner_size; ++k)
+        values[corner_offset(i, j, k)] = reader.getValue(origin.offsetBy(i, j, k));
+  return values;
+}
+
+std::array<double, 8> cell_values(const CornerValues& corners, int i, int j, int k) {
+  std::array<double, 8> values;
+  for (int c = 0; c < 8; ++c) values[c] = corners[corner_offset(i + (c & 1), j + (c >> 1 & 1), k + (c >> 2 & 1))];
+  return values;
+}
+
+Blocks field_blocks(const FieldTree& field) {
+  Blocks blocks;
+  for (auto leaf = field.cbeginLeaf(); leaf; ++leaf) blocks.mixed.push_back(leaf->origin());
+  auto tile = field.cbeginValueOn();
+  tile.setMaxDepth(FieldTree::ValueOnCIter::LEAF_DEPTH - 1);
+  for (; tile; ++tile) blocks.full.push_back(tile.getCoord());
+  return blocks;
+}
+
+Moments cell_moments(const std::array<double, 8>& values) {
+  // Kuhn's split: a tetrahedron per order of the axes, each from corner 0 to corner 7.
+  static constexpr std::array<std::array<int, 4>, 6> tetrahedra{
+      {{0, 1, 3, 7}, {0, 1, 5, 7}, {0, 2, 3, 7}, {0, 2, 6, 7}, {0, 4, 5, 7}, {0, 4, 6, 7}}};
+  Moments sum;
+  for (const auto& tetrahedron : tetrahedra) {
+    std::array<Vec3, 4> corners;
+    std::array<double, 4> at_corners;
+    for (int i = 0; i < 4; ++i) {
+      const int c = tetrahedron[i];
+      corners[i] = {double(c & 1), double(c >> 1 & 1), double(c >> 2 & 1)};
+      at_corners[i] = values[c];
+    }
+    sum += negative_part(corners, at_corners);
+  }
+  return sum;
+}
+
+namespace {
+
+/// Moments of a block in units of the lattice.
+Moments block_moments(const FieldReader& reader, const Coord& origin) {
+  const CornerValues corners = corner_values(reader, origin);
+  Moments sum;
+  for (int i = 0; i < leaf_size; ++i)
+    for (int j = 0; j < leaf_size; ++j)
+      for (int k = 0; k < leaf_size; ++k) {
+        const std::array<double, 8> values = cell_values(corners, i, j, k);
+        const auto negative = std::ranges::count_if(values, [](double v) { return v < 0; });
+        if (negative == 0) continue;
+        const Vec3 least{double(origin[0] + i), double(origin[1] + j), double(origin[2] + k)};
+        const Moments cell = negative == 8 ? Moments{1, {0.5, 0.5, 0.5}} : cell_moments(values);
+        sum += {cell.volume_mm3, cell.first_mm4 + cell.volume_mm3 * least};
+      }
+  return sum;
+}
+
+}  // namespace
+
+Moments field_moments(const FieldTree& field, const VoxelFrame& frame) {
+  const Blocks blocks = field_blocks(field);
+  std::vector<Moments> parts(blocks.mixed.size());
+  tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
+    parts[i] = block_moments(FieldReader(field), blocks.mixed[i]);
+  });
+  Moments sum;  // one after the other: the same sum whatever the threads
+  for (const Moments& part : parts) sum += part;
+  for (const Coord& origin : blocks.full) {
+    const double cells = leaf_size * leaf_size * leaf_size;
+    const Vec3 middle = Vec3{double(origin[0]), double(origin[1]), double(origin[2])} + Vec3{4, 4, 4};
+    sum += {cells, cells * middle};
+  }
+  const double h = frame.voxel_mm, volume = h * h * h * sum.volume_mm3;
+  return {volume, volume * frame.origin_mm + h * h * h * h * sum.first_mm4};
+}
+
+void push_from_zero(FieldTree& field, float gap) {
+  for (auto leaf = field.beginLeaf(); leaf; ++leaf)
+    for (openvdb::Index n = 0; n < FieldLeaf::SIZE; ++n)
+      if (std::abs(leaf->getValue(n)) < gap) leaf->setValueOnly(n, gap);
+}
+
+}  // namespace aplomb::adapters

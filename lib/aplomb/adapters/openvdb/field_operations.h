@@ -1,0 +1,44 @@
+#pragma once
+
+// Private to the .cpp files of this folder.
+
+#include <vector>
+
+#include "aplomb/adapters/openvdb/grids.h"
+
+namespace aplomb::adapters {
+
+/// The blocks of 8^3 cells that may have a negative corner: the least corners of the leaves, and of the active tiles,
+/// whose cells are inside altogether; in the tree's order.
+struct Blocks {
+  std::vector<openvdb::Coord> mixed;
+  std::vector<openvdb::Coord> full;
+};
+Blocks field_blocks(const FieldTree& field);
+
+/// Moments of the negative part of one cell in units of the lattice, relative to the cell's least corner.
+Moments cell_moments(const std::array<double, 8>& values);
+
+/// The eight corner values of a cell of a block, corner c at (c & 1, c >> 1 & 1, c >> 2 & 1).
+std::array<double, 8> cell_values(const CornerValues& corners, int i, int j, int k);
+
+/// Moments of the polyhedron that marching tetrahedra make.
+Moments field_moments(const FieldTree& field, const VoxelFrame& frame);
+
+/// Raises the field where no ball of `radius` (in the field's unit) that lies inside reaches within `slack`:
+/// field(x) = max(field(x), min over p with field(p) <= -radius of |x - p| + field(p) - slack).
+/// Interior distances must be exact down to -radius.
+void open_by_ball(FieldTree& field, double radius, double slack, double voxel);
+
+struct DroppedParts {
+  std::size_t parts = 0;
+  std::size_t points = 0;
+};
+
+/// Raises face-connected negative parts of fewer than `least_points` lattice points above zero.
+DroppedParts drop_small_parts(FieldTree& field, std::size_t least_points);
+
+/// Moves values within `gap` of zero to +gap, so that no surface vertex falls on a lattice point.
+void push_from_zero(FieldTree& field, float gap);
+
+}  // namespace aplomb::adapters
