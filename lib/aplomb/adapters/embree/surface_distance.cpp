@@ -143,14 +143,14 @@ SurfaceDistance::Closest SurfaceDistance::closest(Vec3 point, std::uint32_t hint
   struct Search {
     const Impl& impl;
     Vec3 point;
-    double squared;
-    std::uint32_t triangle;
+    double squared = std::numeric_limits<double>::infinity();
+    std::uint32_t triangle = no_triangle;
 
     // Box tests see the point in single precision: slack keeps them from missing a triangle.
     float radius() const { return static_cast<float>(std::sqrt(squared) * (1 + 1e-6) + impl.slack_mm); }
   };
-  Search search{*impl_, point, std::numeric_limits<double>::infinity(), no_triangle};
-  if (hint != no_triangle) search = {*impl_, point, impl_->squared_distance(point, hint), hint};
+  Search search{*impl_, point};
+  if (hint != no_triangle) search.squared = impl_->squared_distance(point, hint), search.triangle = hint;
   RTCPointQuery query{};
   query.x = static_cast<float>(point.x);
   query.y = static_cast<float>(point.y);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "aplomb/adapters/openvdb/field_operations.h"
+#include "aplomb/volume/carvable_blocks.h"
 
 namespace aplomb {
 
@@ -104,7 +105,7 @@ std::vector<CornerCell> boundary_cells(const VoidField& field) {
   std::vector<CornerCell> cells;
   for (const Coord& origin : adapters::field_blocks(tree).mixed) {
     const adapters::CornerValues corners = adapters::corner_values(reader, origin);
-    for (int cell = 0; cell < FieldLeaf::SIZE; ++cell) {
+    for (int cell = 0; cell < CarvableBlock::cells; ++cell) {
       const int i = cell / 64, j = cell / 8 % 8, k = cell % 8;
       const auto values = adapters::cell_values(corners, i, j, k);
       const auto negative = std::ranges::count_if(values, [](double v) { return v < 0; });
