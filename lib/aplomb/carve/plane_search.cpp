@@ -1,0 +1,133 @@
+#include "aplomb/carve/plane_search.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include "aplomb/adapters/glpk/linear_program.h"
+
+namespace aplomb {
+
+using adapters::LinearProgram;
+using adapters::LinearSolution;
+
+namespace {
+
+constexpr int most_planes = 400;
+
+auto unsolved() { return fail(ErrorCode::internal, "the linear program over the planes found so far was not solved"); }
+
+}  // namespace
+
+PlaneSearch::PlaneSearch(BalanceProblem problem, BestBody best_body, const Moments& uncarved)
+    : problem_(std::move(problem)), best_body_(std::move(best_body)), volume_mm3_(uncarved.volume_mm3) {
+  assert(!problem_.rows.empty() && volume_mm3_ > 0);
+  scale_ = volume_mm3_ * std::cbrt(volume_mm3_);
+  for (const BalanceRow& row : problem_.rows) {
+    const double weight = row.b(uncarved) / scale_;
+    row_weights_.push_back(weight > 0 ? weight : 1);
+  }
+  points_.push_back(uncarved);
+}
+
+double PlaneSearch::row_value(const BalanceRow& row, double t, const Moments& body) const {
+  return row.at(t)(body) / scale_;
+}
+
+AffineForm PlaneSearch::combination(const std::vector<double>& weights, double t) const {
+  AffineForm sum;
+  for (std::size_t i = 0; i < weights.size(); ++i) sum = sum + weights[i] * problem_.rows[i].at(t);
+  return sum;
+}
+
+Moments PlaneSearch::try_plane(const AffineForm& kept) {
+  ++planes_;
+  points_.push_back(best_body_(kept));
+  return points_.back();
+}
+
+/// The least t at which these weights prove that no body holds all rows: the zero of the convex, falling function
+/// F(t) = max over bodies of sum_i y_i g_i(body, t), approached by Newton's method and then passed.
+double PlaneSearch::certified_bound(const std::vector<double>& weights, double t) {
+  double step = 1e-12;
+  for (int i = 0; i < 60; ++i) {
+    const AffineForm form = combination(weights, t);
+    const Moments body = best_body_(form);
+    const double value = form(body) / scale_;
+    if (value <= 0) return t;
+    double slope = 0;
+    for (std::size_t r = 0; r < weights.size(); ++r) slope += weights[r] * problem_.rows[r].b(body) / scale_;
+    if (!(slope > 0)) return std::numeric_limits<double>::infinity();
+    t += value / slope + step;
+    step *= 2;
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+Result<PlaneChoice> PlaneSearch::most_stable(double tolerance, const Job& job) {
+  PlaneChoice best{{1, {}}, points_.front(), largest_t(problem_, points_.front()), std::numeric_limits<double>::infinity()};
+  double t = best.t;
+  if (!std::isfinite(t)) t = 0;
+  for (int round = 0; round < most_planes && best.bound - best.t > tolerance; ++round) {
+    if (!job.report(double(round) / (round + 20), "carve")) return cancelled();
+    LinearProgram program;  // maximise s with sum_k share_k g_i(point_k, t) >= s weight_i
+    program.variables.assign(points_.size(), {});
+    program.variables.push_back({1, -adapters::unbounded, adapters::unbounded});
+    for (std::size_t i = 0; i < problem_.rows.size(); ++i) {
+      LinearProgram::Row row;
+      for (const Moments& point : points_) row.coefficients.push_back(row_value(problem_.rows[i], t, point));
+      row.coefficients.push_back(-row_weights_[i]);
+      program.rows.push_back(std::move(row));
+    }
+    LinearProgram::Row shares{std::vector<double>(points_.size(), 1.0), 1, true};
+    shares.coefficients.push_back(0);
+    program.rows.push_back(std::move(shares));
+    const auto solution = adapters::solve(program);
+    if (!solution) return unsolved();
+    std::vector<double> weights(problem_.rows.size());
+    for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = std::max(0.0, -solution->duals[i]);
+    Moments mixture;
+    for (std::size_t k = 0; k < points_.size(); ++k) mixture += solution->x[k] * points_[k];
+
+    const AffineForm kept = combination(weights, t);
+    const Moments body = try_plane(kept);
+    if (const double reached = largest_t(problem_, body); reached > best.t) best.kept = kept, best.body = body, best.t = reached;
+    best.bound = std::min(best.bound, certified_bound(weights, t));
+    const double promised = largest_t(problem_, mixture);
+    t = solution->value >= 0 && std::isfinite(promised) ? std::max(t, promised) : t + solution->value;
+    t = std::min(t, best.bound);
+  }
+  return best;
+}
+
+Result<PlaneChoice> PlaneSearch::extreme_volume(VolumeAim aim, double t, double tolerance, const PlaneChoice& feasible,
+                                                const Job& job) {
+  const double sign = aim == VolumeAim::most ? 1 : -1;
+  points_.push_back(feasible.body);
+  PlaneChoice best = feasible;
+  double bound = std::numeric_limits<double>::infinity();  // of sign * volume, scaled
+  for (int round = 0; round < most_planes; ++round) {
+    if (!job.report(double(round) / (round + 20), "carve")) return cancelled();
+    LinearProgram program;  // maximise sign * volume of a mixture that holds every row
+    for (const Moments& point : points_) program.variables.push_back({sign * point.volume_mm3 / volume_mm3_});
+    for (const BalanceRow& balance : problem_.rows) {
+      LinearProgram::Row row;
+      for (const Moments& point : points_) row.coefficients.push_back(row_value(balance, t, point));
+      program.rows.push_back(std::move(row));
+    }
+    program.rows.push_back({std::vector<double>(points_.size(), 1.0), 1, true});
+    const auto solution = adapters::solve(program);
+    if (!solution) return unsolved();
+    std::vector<double> weights(problem_.rows.size());
+    for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = std::max(0.0, -solution->duals[i]) / scale_;
+    const AffineForm kept = AffineForm{sign / volume_mm3_, {}} + combination(weights, t);
+    const Moments body = try_plane(kept);
+    bound = std::min(bound, kept(body));
+    best = {kept, body, largest_t(problem_, body), sign * bound * volume_mm3_};
+    if (bound - solution->value < 1e-9 && t - best.t < tolerance) break;
+  }
+  return best;
+}
+
+}  // namespace aplomb
