@@ -24,7 +24,8 @@ class Carver {
         problem_(problem),
         options_(options),
         tree_(carvable_blocks(volume), volume.frame()),
-        search_(problem, [this](const AffineForm& kept) { return solid_ - tree_.not_positive_part(kept); }, solid) {}
+        search_(
+            problem, [this](const AffineForm& kept) { return solid_ - tree_.not_positive_part(kept); }, solid) {}
 
   Result<VoidCut> choose(Carving& carving, const Job& job) {
     const auto stable = search_.most_stable(search_tolerance, job.part(0, 0.3));
@@ -52,7 +53,7 @@ class Carver {
     std::optional<VoidCut> result;
     for (int round = 0; round < most_rounds; ++round) {
       const int planes_before = search_.planes();
-      const auto plane = search_.extreme_volume(aim, std::min(asked, stable.t), search_tolerance, stable,
+      const auto plane = search_.extreme_volume(aim, std::min(asked, stable.t), stable,
                                                 job.part(double(round) / most_rounds, (round + 1.0) / most_rounds));
       if (!plane) return tl::unexpected(plane.error());
       carving.planes += search_.planes() - planes_before;
@@ -85,7 +86,8 @@ std::string find_problem(const CarveOptions& o) {
 Result<Carving> carve(const SolidVolume& volume, const Moments& solid, const BalanceProblem& problem,
                       const CarveOptions& options, const Job& job) {
   assert(find_problem(options).empty());
-  Carving carving{VoidField(nullptr, {}), {}, solid};
+  Carving carving;
+  carving.body = solid;
   SolidVolume allowed = volume;
   for (int round = 0; round < most_rounds; ++round) {
     Carver carver(allowed, solid, problem, options);

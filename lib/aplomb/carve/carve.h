@@ -18,8 +18,8 @@ enum class CarveAim {
 
 struct CarveOptions {
   CarveAim aim = CarveAim::least;
-  double required_t = 0;           ///< tan of the tip angle asked for, or what t stands for in the problem; finite
-  double least_volume_mm3 = 10;    ///< smaller voids are not carved, >= 0
+  double required_t = 0;         ///< tan of the tip angle asked for, or what t stands for in the problem; finite
+  double least_volume_mm3 = 10;  ///< smaller voids are not carved, >= 0
 };
 
 /// A sentence that names field, value and range; empty when there is nothing to say.
@@ -28,13 +28,13 @@ std::string find_problem(const CarveOptions& options);
 /// The void that was chosen and what is known of the best that could be.
 struct Carving {
   VoidField field;
-  AffineForm kept;             ///< the plane: kept where positive
-  Moments body;                ///< the solid less the void's polyhedron
-  double t = 0;                ///< the largest t at which every row holds for `body`
-  double bound_t = 0;          ///< no void in this volume does better: certified by a dual solution
-  double volume_bound_mm3 = 0; ///< least: no void that reaches required_t is smaller; light: none is larger
-  bool reaches = false;        ///< t >= required_t (to 1e-5), or nothing was required (stable)
-  int planes = 0;              ///< planes tried
+  AffineForm kept;                ///< the plane: kept where positive
+  Moments body;                   ///< the solid less the void's polyhedron
+  double t = 0;                   ///< the largest t at which every row holds for `body`
+  double bound_t = 0;             ///< no void in this volume does better: certified by a dual solution
+  double volume_bound_mm3 = 0;    ///< least: no void that reaches required_t is smaller; light: none is larger
+  bool reaches = false;           ///< t >= required_t (to 1e-5), or nothing was required (stable)
+  int planes = 0;                 ///< planes tried
   std::size_t dropped_parts = 0;  ///< voids too small to carve
   double dropped_mm3 = 0;
 };

@@ -66,10 +66,11 @@ double PlaneSearch::certified_bound(const std::vector<double>& weights, double t
 }
 
 Result<PlaneChoice> PlaneSearch::most_stable(double tolerance, const Job& job) {
-  PlaneChoice best{{1, {}}, points_.front(), largest_t(problem_, points_.front()), std::numeric_limits<double>::infinity()};
+  PlaneChoice best{
+      {1, {}}, points_.front(), largest_t(problem_, points_.front()), std::numeric_limits<double>::infinity()};
   double t = best.t;
   if (!std::isfinite(t)) t = 0;
-  for (int round = 0; round < most_planes && best.bound - best.t > tolerance; ++round) {
+  for (int round = 0; round < most_planes && best.bound - std::max(best.t, t) > tolerance; ++round) {
     if (!job.report(double(round) / (round + 20), "carve")) return cancelled();
     LinearProgram program;  // maximise s with sum_k share_k g_i(point_k, t) >= s weight_i
     program.variables.assign(points_.size(), {});
@@ -92,7 +93,8 @@ Result<PlaneChoice> PlaneSearch::most_stable(double tolerance, const Job& job) {
 
     const AffineForm kept = combination(weights, t);
     const Moments body = try_plane(kept);
-    if (const double reached = largest_t(problem_, body); reached > best.t) best.kept = kept, best.body = body, best.t = reached;
+    if (const double reached = largest_t(problem_, body); reached > best.t)
+      best.kept = kept, best.body = body, best.t = reached;
     best.bound = std::min(best.bound, certified_bound(weights, t));
     const double promised = largest_t(problem_, mixture);
     t = solution->value >= 0 && std::isfinite(promised) ? std::max(t, promised) : t + solution->value;
@@ -101,8 +103,7 @@ Result<PlaneChoice> PlaneSearch::most_stable(double tolerance, const Job& job) {
   return best;
 }
 
-Result<PlaneChoice> PlaneSearch::extreme_volume(VolumeAim aim, double t, double tolerance, const PlaneChoice& feasible,
-                                                const Job& job) {
+Result<PlaneChoice> PlaneSearch::extreme_volume(VolumeAim aim, double t, const PlaneChoice& feasible, const Job& job) {
   const double sign = aim == VolumeAim::most ? 1 : -1;
   points_.push_back(feasible.body);
   PlaneChoice best = feasible;
@@ -125,7 +126,7 @@ Result<PlaneChoice> PlaneSearch::extreme_volume(VolumeAim aim, double t, double 
     const Moments body = try_plane(kept);
     bound = std::min(bound, kept(body));
     best = {kept, body, largest_t(problem_, body), sign * bound * volume_mm3_};
-    if (bound - solution->value < 1e-9 && t - best.t < tolerance) break;
+    if (bound - solution->value < 1e-8) break;
   }
   return best;
 }

@@ -28,19 +28,19 @@ enum class VolumeAim { most, least };
 /// For weights y >= 0 on the rows, the body that is best for the form  l = c + sum_i y_i (a_i - t b_i)  bounds every
 /// body, and its moments are one more point of the convex set of all that carving can reach. A linear program over
 /// the points found so far gives the next weights (Dantzig and Wolfe 1960); t is raised as in Dinkelbach 1967. The
-/// optimum is one half-space, for l is affine (DESIGN "Carving is exact", in lib/README.md). Points found serve later searches.
+/// optimum is one half-space, for l is affine (DESIGN "Carving is exact", in lib/README.md). Points found serve later
+/// searches.
 class PlaneSearch {
  public:
   /// \pre problem.rows is not empty. `uncarved` is one of the bodies.
   PlaneSearch(BalanceProblem problem, BestBody best_body, const Moments& uncarved);
 
-  /// Maximises t to `tolerance`; bound - t is the certified gap.
+  /// Maximises t until a half-space, or a mixture of them, is within `tolerance` of the certified bound.
   Result<PlaneChoice> most_stable(double tolerance, const Job& job = {});
 
-  /// The most (or least) volume with every row at t; `feasible`, a body that holds them, must be known.
-  /// \return the half-space whose t falls short by at most `tolerance`.
-  Result<PlaneChoice> extreme_volume(VolumeAim aim, double t, double tolerance, const PlaneChoice& feasible,
-                                     const Job& job = {});
+  /// The most (or least) volume with every row at t, to 1e-8 of the uncarved volume; the half-space's own t may differ
+  /// from it a little. \pre `feasible` holds the rows at t.
+  Result<PlaneChoice> extreme_volume(VolumeAim aim, double t, const PlaneChoice& feasible, const Job& job = {});
 
   /// How many planes were tried so far.
   int planes() const { return planes_; }
@@ -53,7 +53,7 @@ class PlaneSearch {
 
   BalanceProblem problem_;
   BestBody best_body_;
-  double scale_ = 1;                 // mm4: makes row values about 1
+  double scale_ = 1;  // mm4: makes row values about 1
   double volume_mm3_ = 1;
   std::vector<double> row_weights_;  // b of the uncarved body, scaled
   std::vector<Moments> points_;

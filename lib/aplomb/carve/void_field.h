@@ -16,8 +16,9 @@ class VoidField {
  public:
   struct Impl;  ///< adapters/openvdb/grids.h
 
-  VoidField(std::shared_ptr<const Impl> impl, const Moments& moments)
-      : impl_(std::move(impl)), moments_(moments) {}
+  VoidField() = default;  ///< no void at all
+  VoidField(std::shared_ptr<const Impl> impl, const Moments& moments) : impl_(std::move(impl)), moments_(moments) {}
+  /// \pre !empty().
   const VoxelFrame& frame() const;
   /// Of the polyhedron that marching tetrahedra make of this field (to its float32 values).
   const Moments& moments() const { return moments_; }

@@ -7,7 +7,8 @@
 namespace aplomb {
 
 /// Moments of the part of a tetrahedron where the linear function with the given corner values is negative.
-/// Exact: one or two corners cut off, or a wedge as three tetrahedra. The tetrahedron's own orientation is of no account.
+/// Exact: one or two corners cut off, or a wedge as three tetrahedra. The tetrahedron's own orientation is of no
+/// account.
 Moments negative_part(const std::array<Vec3, 4>& corners, const std::array<double, 4>& values);
 
 }  // namespace aplomb

@@ -54,9 +54,10 @@ class WallSearch {
 
 }  // namespace
 
-Result<double> least_distance_mm(const TriangleMesh& inner, const TriangleMesh& outer, const Job& job) {
+Result<WallMeasure> measure_wall(const TriangleMesh& inner, const TriangleMesh& outer, double required_mm,
+                                 const Job& job) {
   double least = std::numeric_limits<double>::infinity();
-  if (inner.triangles.empty() || outer.triangles.empty()) return least;
+  if (inner.triangles.empty() || outer.triangles.empty()) return WallMeasure{least, {}};
   const SurfaceDistance distance(outer);
   std::vector<Sample> samples(inner.vertices.size());
   constexpr std::size_t batch = 1 << 14;  // between two looks at the job
@@ -73,7 +74,7 @@ Result<double> least_distance_mm(const TriangleMesh& inner, const TriangleMesh& 
   }
   for (const Triangle& t : inner.triangles)
     for (const std::uint32_t v : t) least = std::min(least, samples[v].nearest.distance_mm);
-  const WallSearch search(distance, (1 - 1e-4) * least);
+  const WallSearch search(distance, std::max(required_mm, (1 - 1e-4) * least));
   std::vector<double> bounds(inner.triangles.size());
   for (std::size_t begin = 0; begin < bounds.size(); begin += batch) {
     if (!job.report(0.5 + 0.5 * double(begin) / double(bounds.size()), "measure the wall")) return cancelled();
@@ -82,7 +83,10 @@ Result<double> least_distance_mm(const TriangleMesh& inner, const TriangleMesh& 
       bounds[i] = search.least(samples[t[0]], samples[t[1]], samples[t[2]]);
     });
   }
-  return std::min(least, *std::ranges::min_element(bounds));
+  WallMeasure wall{std::min(least, *std::ranges::min_element(bounds)), {}};
+  for (std::uint32_t i = 0; i < bounds.size(); ++i)
+    if (bounds[i] < required_mm) wall.thin.push_back(i);
+  return wall;
 }
 
 }  // namespace aplomb

@@ -1,19 +1,27 @@
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "aplomb/core/error.h"
 #include "aplomb/core/job.h"
 #include "aplomb/mesh/triangle_mesh.h"
 
 namespace aplomb {
 
-/// The least distance in mm between two surfaces, never more than the true one and less by at most 1e-4 of it:
-/// infinity when one is empty. Works on triangles, not on samples: on a triangle with corners at distances d_i and
-/// an enclosing circle of radius R, d(x)^2 >= min d_i^2 - R^2, for d^2 - |x|^2 is concave; triangles for which
-/// that is not enough are split.
+struct WallMeasure {
+  double least_mm = 0;              ///< infinity when one of the surfaces is empty
+  std::vector<std::uint32_t> thin;  ///< triangles of the inner surface that are nearer than was required
+};
+
+/// The least distance between two surfaces, never more than the true one and less by at most 1e-4 of it.
+/// Works on triangles, not on samples: on a triangle with corners at distances d_i and an enclosing circle of
+/// radius R, d(x)^2 >= min d_i^2 - R^2, for d^2 - |x|^2 is concave; triangles for which that is not enough are split.
 ///
 /// \pre The surfaces do not touch; coordinates are float32 values.
 /// \return cancelled.
 /// \par Cost  one distance per vertex of `inner` and one per split edge, shared by the threads allowed.
-Result<double> least_distance_mm(const TriangleMesh& inner, const TriangleMesh& outer, const Job& job = {});
+Result<WallMeasure> measure_wall(const TriangleMesh& inner, const TriangleMesh& outer, double required_mm,
+                                 const Job& job = {});
 
 }  // namespace aplomb

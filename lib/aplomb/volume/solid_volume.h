@@ -12,14 +12,14 @@
 namespace aplomb {
 
 struct VolumeOptions {
-  double wall_mm = 2;          ///< least material between a void and the outside, > 0
-  double voxel_mm = 0.5;       ///< lattice spacing, > 0, at most half the wall
-  double least_void_mm = 1;    ///< voids narrower than this are not carved; 0 carves any, at most 32 voxels
+  double wall_mm = 2;        ///< least material between a void and the outside, > 0
+  double voxel_mm = 0.5;     ///< lattice spacing, > 0, at most half the wall
+  double least_void_mm = 1;  ///< voids narrower than this are not carved; 0 carves any, at most 32 voxels
   std::size_t memory_bytes = std::size_t{4} << 30;  ///< refused before allocating when the estimate is over
 };
 
 /// What simplifying and rounding the shell may take from the wall, in voxels; carving keeps that much farther away.
-inline constexpr double shell_slack_voxels = 0.1;
+inline constexpr double shell_slack_voxels = 0.08;
 
 /// W of SolidVolume.
 double carving_depth_mm(const VolumeOptions& options);
@@ -29,10 +29,12 @@ std::string find_problem(const VolumeOptions& options);
 
 /// Where a solid may be carved: a sparse OpenVDB grid of
 ///
-///     phi(x) = W - d(x)  mm,    W = sqrt(wall^2 + 3/4 voxel^2) + slack,    d = distance to the surface, inside positive
+///     phi(x) = W - d(x)  mm,    W = sqrt(wall^2 + 3/4 voxel^2) + slack,    d = distance to the surface, inside
+///     positive
 ///
-/// at lattice points: carvable where negative. Exact (to float32) at every corner of a cell in which phi changes sign and
-/// down to a depth of least_void / 2 below; clamped beyond. The distance of depths is exact everywhere: -phi is the distance to where carving must end.
+/// at lattice points: carvable where negative. Exact (to float32) at every corner of a cell in which phi changes sign
+/// and down to a depth of least_void / 2 below; clamped beyond. The distance of depths is exact everywhere: -phi is the
+/// distance to where carving must end.
 class SolidVolume {
  public:
   struct Impl;  ///< adapters/openvdb/grids.h

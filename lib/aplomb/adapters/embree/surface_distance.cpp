@@ -53,7 +53,7 @@ struct SurfaceDistance::Impl {
   Device device;
   Scene scene;
   TriangleMesh mesh;
-  std::vector<std::uint32_t> fan_begin;      // per vertex: its triangles are fan[fan_begin[v] .. fan_begin[v + 1])
+  std::vector<std::uint32_t> fan_begin;  // per vertex: its triangles are fan[fan_begin[v] .. fan_begin[v + 1])
   std::vector<std::uint32_t> fan;
   double slack_mm = 0;  // how far a point may move when Embree takes it in single precision
 
@@ -107,8 +107,8 @@ void build_fans(const TriangleMesh& mesh, std::vector<std::uint32_t>& begin, std
 
 void add_triangles(RTCDevice device, RTCScene scene, const TriangleMesh& mesh) {
   const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* positions = static_cast<float*>(rtcSetNewGeometryBuffer(
-      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), mesh.vertices.size()));
+  auto* positions = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                                3 * sizeof(float), mesh.vertices.size()));
   for (const Vec3& v : mesh.vertices)
     for (int axis = 0; axis < 3; ++axis) *positions++ = static_cast<float>(v[axis]);
   auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
@@ -128,8 +128,7 @@ SurfaceDistance::SurfaceDistance(const TriangleMesh& mesh) {
   build_fans(mesh, impl->fan_begin, impl->fan);
   const Box3 box = bounding_box(mesh);
   double reach = 0;
-  for (int axis = 0; axis < 3; ++axis)
-    reach = std::max({reach, std::abs(box.min[axis]), std::abs(box.max[axis])});
+  for (int axis = 0; axis < 3; ++axis) reach = std::max({reach, std::abs(box.min[axis]), std::abs(box.max[axis])});
   impl->slack_mm = 8 * static_cast<double>(std::numeric_limits<float>::epsilon()) * reach;
   impl->device.reset(rtcNewDevice("threads=1"));
   impl->scene.reset(rtcNewScene(impl->device.get()));

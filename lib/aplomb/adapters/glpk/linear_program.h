@@ -26,8 +26,9 @@ struct LinearProgram {
 
 struct LinearSolution {
   double value = 0;
-  std::vector<double> x;      ///< one per variable
-  std::vector<double> duals;  ///< one per row: the value's derivative with respect to its lower bound, <= 0 for inequalities
+  std::vector<double> x;  ///< one per variable
+  std::vector<double>
+      duals;  ///< one per row: the value's derivative with respect to its lower bound, <= 0 for inequalities
 };
 
 /// Solves by GLPK's simplex method. Nothing when it is infeasible, unbounded or does not solve it.

@@ -1,14 +1,15 @@
 #pragma once
 
+#include <vector>
+
 #include "aplomb/mesh/triangle_mesh.h"
 
 namespace aplomb::adapters {
 
-/// Collapses edges (quadric error, Garland and Heckbert 1997) while the surface moves by no more than about
-/// `deviation_mm`; the vertices that stay do not move. The result may cross itself: check it.
-TriangleMesh simplified(const TriangleMesh& mesh, double deviation_mm);
-
-/// The same mesh without vertices that no triangle names.
-TriangleMesh without_unused_vertices(const TriangleMesh& mesh);
+/// Collapses edges (quadric error, Garland and Heckbert 1997) of some triangles of a mesh while the surface moves by no
+/// more than about `deviation_mm`; vertices do not move, and those on the triangles' rim stay. The result may be
+/// non-manifold in places and cross itself: check it.
+std::vector<Triangle> simplified(const std::vector<Vec3>& vertices, const std::vector<Triangle>& triangles,
+                                 double deviation_mm);
 
 }  // namespace aplomb::adapters

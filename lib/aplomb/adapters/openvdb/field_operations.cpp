@@ -15,8 +15,7 @@ CornerValues corner_values(const FieldReader& reader, const Coord& origin) {
   CornerValues values;
   for (int i = 0; i < corner_size; ++i)
     for (int j = 0; j < corner_size; ++j)
-      for (int k = 0; k < corner_size; ++k)
-        values[corner_offset(i, j, k)] = reader.getValue(origin.offsetBy(i, j, k));
+      for (int k = 0; k < corner_size; ++k) values[corner_offset(i, j, k)] = reader.getValue(origin.offsetBy(i, j, k));
   return values;
 }
 
@@ -77,9 +76,8 @@ Moments block_moments(const FieldReader& reader, const Coord& origin) {
 Moments field_moments(const FieldTree& field, const VoxelFrame& frame) {
   const Blocks blocks = field_blocks(field);
   std::vector<Moments> parts(blocks.mixed.size());
-  tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
-    parts[i] = block_moments(FieldReader(field), blocks.mixed[i]);
-  });
+  tbb::parallel_for(std::size_t{0}, parts.size(),
+                    [&](std::size_t i) { parts[i] = block_moments(FieldReader(field), blocks.mixed[i]); });
   Moments sum;  // one after the other: the same sum whatever the threads
   for (const Moments& part : parts) sum += part;
   for (const Coord& origin : blocks.full) {

@@ -19,9 +19,9 @@ using openvdb::Coord;
 
 namespace {
 
-constexpr int root_size = 32;       // lattice points per side of the octree's roots
-constexpr double surface_gap = 0.05;  // voxels: no field value is nearer to zero
-constexpr double exact_reach = 1.75;  // voxels: more than the diagonal of a cell
+constexpr int root_size = 32;          // lattice points per side of the octree's roots
+constexpr double surface_gap = 0.05;   // voxels: no field value is nearer to zero
+constexpr double exact_reach = 1.75;   // voxels: more than the diagonal of a cell
 constexpr double opening_slack = 0.5;  // voxels
 
 /// The octree's descent from one root: leaves and whole inside blocks of the field.

@@ -26,9 +26,7 @@ class Plane {
       constant_ = kept.constant > 0 ? 1e9 : -1e9;  // all kept or all carved
     }
   }
-  double at(const Coord& p) const {
-    return constant_ + gradient_.x * p[0] + gradient_.y * p[1] + gradient_.z * p[2];
-  }
+  double at(const Coord& p) const { return constant_ + gradient_.x * p[0] + gradient_.y * p[1] + gradient_.z * p[2]; }
   /// Over the lattice points of a block and the corners past it.
   double least(const Coord& origin) const { return centre(origin) - reach(); }
   double greatest(const Coord& origin) const { return centre(origin) + reach(); }
@@ -75,8 +73,8 @@ SolidVolume without_dropped(const SolidVolume& volume, const FieldTree& before, 
     }
   for (const Coord& origin : adapters::field_blocks(before).full)
     if (after.getValue(origin) > 0) field->tree().addTile(1, origin, field->background(), false);
-  return SolidVolume(std::make_shared<SolidVolume::Impl>(
-      SolidVolume::Impl{volume.frame(), volume.options(), std::move(field)}));
+  return SolidVolume(
+      std::make_shared<SolidVolume::Impl>(SolidVolume::Impl{volume.frame(), volume.options(), std::move(field)}));
 }
 
 }  // namespace

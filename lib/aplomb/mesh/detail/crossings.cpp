@@ -22,30 +22,24 @@ bool on_one_side(const Corners& a, Vec3 first, Points... others) {
 }
 
 /// Turned so that the shared vertex, or the one that is not shared, comes first.
-Triangle turned(const Triangle& t, unsigned first) {
-  return {t[first], t[(first + 1) % 3], t[(first + 2) % 3]};
-}
+Triangle turned(const Triangle& t, unsigned first) { return {t[first], t[(first + 1) % 3], t[(first + 2) % 3]}; }
 
 bool cross(const TriangleMesh& mesh, const Triangle& s, const Triangle& t) {
   unsigned in_s = 0, in_t = 0;  // the shared vertices, as bits
   for (unsigned i = 0; i < 3; ++i)
     for (unsigned j = 0; j < 3; ++j)
       if (s[i] == t[j]) in_s |= 1U << i, in_t |= 1U << j;
-  constexpr std::array<unsigned, 8> first_of{0, 0, 1, 2,
-                                             2, 1, 0, 0};  // the odd one out of a mask of one or two bits
+  constexpr std::array<unsigned, 8> first_of{0, 0, 1, 2, 2, 1, 0, 0};  // the odd one out of a mask of one or two bits
   if (in_s == 0) {
     const Corners a = corners_of(mesh, s), b = corners_of(mesh, t);
-    return !on_one_side(a, b[0], b[1], b[2]) && !on_one_side(b, a[0], a[1], a[2]) &&
-           adapters::triangles_meet(a, b);
+    return !on_one_side(a, b[0], b[1], b[2]) && !on_one_side(b, a[0], a[1], a[2]) && adapters::triangles_meet(a, b);
   }
-  const Corners a = corners_of(mesh, turned(s, first_of[in_s])),
-                b = corners_of(mesh, turned(t, first_of[in_t]));
+  const Corners a = corners_of(mesh, turned(s, first_of[in_s])), b = corners_of(mesh, turned(t, first_of[in_t]));
   if (in_s == 7) return false;
   const bool share_one = (in_s & (in_s - 1)) == 0;
   if (share_one)
     return !on_one_side(a, b[1], b[2]) && !on_one_side(b, a[1], a[2]) &&
-           (adapters::triangle_meets_segment(a, b[1], b[2]) ||
-            adapters::triangle_meets_segment(b, a[1], a[2]));
+           (adapters::triangle_meets_segment(a, b[1], b[2]) || adapters::triangle_meets_segment(b, a[1], a[2]));
   return adapters::orientation(a[0], a[1], a[2], b[0]) == 0 && adapters::on_same_side(a[1], a[2], a[0], b[0]);
 }
 
@@ -69,8 +63,7 @@ int crossing_above(const Corners& t, Vec3 p) {
 
 Result<std::size_t> count_crossings(const TriangleMesh& mesh, const TriangleTree& tree,
                                     const std::vector<bool>& skipped, const Job& job) {
-  constexpr std::uint32_t leaves_a_step =
-      4096;  // about 15 ms: steps bound the wait for a cancel, whatever the threads
+  constexpr std::uint32_t leaves_a_step = 4096;  // about 15 ms: steps bound the wait for a cancel, whatever the threads
   std::size_t crossings = 0;
   for (std::uint32_t first = 0; first < tree.leaves() && crossings < most_crossings; first += leaves_a_step) {
     if (!job.report(static_cast<double>(first) / tree.leaves(), "check")) return cancelled();
@@ -85,6 +78,19 @@ Result<std::size_t> count_crossings(const TriangleMesh& mesh, const TriangleTree
     crossings += tbb::parallel_reduce(step, std::size_t{0}, count_in, std::plus<>());
   }
   return crossings;
+}
+
+Result<std::vector<bool>> crossing_triangles(const TriangleMesh& mesh, const TriangleTree& tree,
+                                             const std::vector<bool>& skipped, const Job& job) {
+  std::vector<bool> crossing(mesh.triangles.size());
+  for (std::uint32_t leaf = 0; leaf < tree.leaves(); ++leaf) {
+    if (leaf % 4096 == 0 && !job.report(static_cast<double>(leaf) / tree.leaves(), "check")) return cancelled();
+    tree.pairs_of_leaf(leaf, [&](std::uint32_t s, std::uint32_t t) {
+      if (!skipped[s] && !skipped[t] && cross(mesh, mesh.triangles[s], mesh.triangles[t]))
+        crossing[s] = crossing[t] = true;
+    });
+  }
+  return crossing;
 }
 
 std::vector<int> windings_round_components(const TriangleMesh& mesh, const TriangleTree& tree,

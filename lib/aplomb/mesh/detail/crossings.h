@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "aplomb/core/error.h"
 #include "aplomb/core/job.h"
@@ -20,6 +21,10 @@ constexpr std::size_t most_crossings = 1'000'000;
 /// \par Cost  0.15 s of CPU for 100k triangles; on all threads.
 Result<std::size_t> count_crossings(const TriangleMesh& mesh, const TriangleTree& tree,
                                     const std::vector<bool>& skipped, const Job& job);
+
+/// Marks the triangles that count_crossings() would count, with the same promises.
+Result<std::vector<bool>> crossing_triangles(const TriangleMesh& mesh, const TriangleTree& tree,
+                                             const std::vector<bool>& skipped, const Job& job);
 
 /// How often each component is enclosed by the other ones, at its first vertex: the sum of their winding
 /// numbers.
