@@ -29,7 +29,8 @@ void blend(Image& image, int x, int y, Colour c, double share) {
 /// Colours every pixel within the box by its coverage.
 template <class Coverage>
 void paint(Image& image, Vec2 low, Vec2 high, Colour colour, double opacity, Coverage&& coverage) {
-  const int x1 = std::min(image.width - 1, int(std::ceil(high.x))), y1 = std::min(image.height - 1, int(std::ceil(high.y)));
+  const int x1 = std::min(image.width - 1, int(std::ceil(high.x))),
+            y1 = std::min(image.height - 1, int(std::ceil(high.y)));
   for (int y = std::max(0, int(std::floor(low.y))); y <= y1; ++y) {
     for (int x = std::max(0, int(std::floor(low.x))); x <= x1; ++x) {
       const double share = opacity * std::clamp(coverage(Vec2{x + 0.5, y + 0.5}), 0.0, 1.0);

@@ -54,7 +54,8 @@ Lights::Lights(const TriangleMesh& mesh, Vec3 key, const std::optional<Cut>& cut
   for (int i = 0; i < sky_lamps; ++i) {
     const double z = (i + 0.5) / sky_lamps, r = std::sqrt(1 - z * z), a = golden_rad * i;
     constexpr float share = 2.0F / sky_lamps;
-    lamps_.push_back(lamp(mesh, {r * std::cos(a), r * std::sin(a), z}, {0.36F * share, 0.38F * share, 0.43F * share}, cut));
+    lamps_.push_back(
+        lamp(mesh, {r * std::cos(a), r * std::sin(a), z}, {0.36F * share, 0.38F * share, 0.43F * share}, cut));
   }
 }
 

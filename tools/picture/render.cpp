@@ -91,8 +91,8 @@ Vec3 interpolated(const TriangleMesh& mesh, const Triangle& t, const std::array<
 
 Camera framed(const Subject& subject, const View& view) {
   const double ce = std::cos(view.elevation_rad);
-  Camera camera = camera_towards({ce * std::cos(view.azimuth_rad), ce * std::sin(view.azimuth_rad),
-                                  std::sin(view.elevation_rad)});
+  Camera camera =
+      camera_towards({ce * std::cos(view.azimuth_rad), ce * std::sin(view.azimuth_rad), std::sin(view.elevation_rad)});
   const Box3 box = view.frame_mm ? *view.frame_mm : bounding_box(subject.mesh);
   Box3 seen;
   for (int corner = 0; corner < 8; ++corner) {
@@ -112,8 +112,13 @@ Camera framed(const Subject& subject, const View& view) {
 class Drawing {
  public:
   Drawing(const Subject& subject, const View& view)
-      : subject_(subject), view_(view), box_(bounding_box(subject.mesh)), camera_(framed(subject, view)), normals_(corner_normals(subject.mesh)),
-        bounds_void_(void_triangles(subject.mesh)), lights_(subject.mesh, key_direction(), view.cut) {
+      : subject_(subject),
+        view_(view),
+        box_(bounding_box(subject.mesh)),
+        camera_(framed(subject, view)),
+        normals_(corner_normals(subject.mesh)),
+        bounds_void_(void_triangles(subject.mesh)),
+        lights_(subject.mesh, key_direction(), view.cut) {
     if (view.cut) cut_ = Cut{view.cut->point_mm, normalized(view.cut->normal)};
   }
 
