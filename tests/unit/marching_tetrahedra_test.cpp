@@ -40,9 +40,7 @@ bool is_closed_and_oriented(const TriangleMesh& mesh) {
   return !edges.empty();
 }
 
-float ball(int x, int y, int z) {
-  return static_cast<float>(std::sqrt(x * x + y * y + z * z) - 17.3);
-}
+float ball(int x, int y, int z) { return static_cast<float>(std::sqrt(x * x + y * y + z * z) - 17.3); }
 
 TEST(MarchingTetrahedra, a_ball_is_closed_wound_outward_and_has_its_volume) {
   const auto cells = cells_of(20, ball);
@@ -66,8 +64,7 @@ TEST(MarchingTetrahedra, random_signs_are_closed_and_oriented_whatever_the_case)
     const auto field = [&](int x, int y, int z) {
       if (std::max({std::abs(x), std::abs(y), std::abs(z)}) >= 5) return 1.0F;
       auto [at, is_new] = values.try_emplace({x, y, z});
-      if (is_new)
-        at->second = std::uniform_real_distribution<float>(0.05F, 1)(random) * (random() % 2 ? 1.0F : -1.0F);
+      if (is_new) at->second = std::uniform_real_distribution<float>(0.05F, 1)(random) * (random() % 2 ? 1.0F : -1.0F);
       return at->second;
     };
     EXPECT_TRUE(is_closed_and_oriented(marching_tetrahedra(cells_of(5, field), 1, {})));
@@ -77,14 +74,11 @@ TEST(MarchingTetrahedra, random_signs_are_closed_and_oriented_whatever_the_case)
 TEST(MarchingTetrahedra, cells_far_from_the_origin_give_the_same_mesh) {
   auto cells = cells_of(20, ball);
   const TriangleMesh here = marching_tetrahedra(cells, 1, {});
-  for (CornerCell& cell : cells)
-    cell.ijk = {cell.ijk[0] + 2'000'000'000, cell.ijk[1] - 2'000'000'000, cell.ijk[2]};
+  for (CornerCell& cell : cells) cell.ijk = {cell.ijk[0] + 2'000'000'000, cell.ijk[1] - 2'000'000'000, cell.ijk[2]};
   EXPECT_EQ(marching_tetrahedra(cells, 1, {}).triangles, here.triangles);
 }
 
-TEST(MarchingTetrahedra, no_cells_give_an_empty_mesh) {
-  EXPECT_TRUE(marching_tetrahedra({}, 1, {}).triangles.empty());
-}
+TEST(MarchingTetrahedra, no_cells_give_an_empty_mesh) { EXPECT_TRUE(marching_tetrahedra({}, 1, {}).triangles.empty()); }
 
 }  // namespace
 }  // namespace aplomb

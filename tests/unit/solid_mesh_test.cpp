@@ -10,9 +10,7 @@
 namespace aplomb {
 namespace {
 
-MeshDefects defects_of(const TriangleMesh& mesh) {
-  return check_solid(mesh).value().defects;
-}
+MeshDefects defects_of(const TriangleMesh& mesh) { return check_solid(mesh).value().defects; }
 
 TriangleMesh without_triangle(TriangleMesh mesh, std::size_t index) {
   mesh.triangles.erase(mesh.triangles.begin() + static_cast<std::ptrdiff_t>(index));
@@ -34,6 +32,17 @@ TEST(CheckSolid, the_solid_keeps_the_triangles_and_rounds_to_float) {
   const SolidCheck check = check_solid(box).value();
   ASSERT_TRUE(check.solid);
   EXPECT_EQ(check.solid->mesh(), rounded_to_float(box));
+}
+
+TEST(CheckSolid, every_coordinate_is_a_float_whatever_the_number_of_vertices) {
+  for (int segments = 3; segments < 20; ++segments) {
+    const SolidCheck check = check_solid(test::cone({0.1, 0.2, 0.3}, 1.7, 3.3, segments)).value();
+    for (const Vec3& v : check.solid.value().mesh().vertices)
+      for (int axis = 0; axis < 3; ++axis) {
+        volatile float rounded = static_cast<float>(v[axis]);
+        EXPECT_EQ(v[axis], static_cast<double>(rounded));
+      }
+  }
 }
 
 TEST(CheckSolid, vertices_that_no_triangle_uses_change_nothing) {
@@ -88,8 +97,8 @@ TEST(CheckSolid, two_boxes_that_touch_at_a_corner_edge_or_face_intersect) {
 TEST(CheckSolid, boxes_that_share_a_vertex_are_nonmanifold_there) {
   TriangleMesh mesh = joined(test::box({0, 0, 0}, {1, 1, 1}), test::box({1, 1, 1}, {2, 2, 2}));
   const auto find = [&](std::size_t from) {
-    return static_cast<std::uint32_t>(
-        std::find(mesh.vertices.begin() + from, mesh.vertices.end(), Vec3{1, 1, 1}) - mesh.vertices.begin());
+    return static_cast<std::uint32_t>(std::find(mesh.vertices.begin() + from, mesh.vertices.end(), Vec3{1, 1, 1}) -
+                                      mesh.vertices.begin());
   };
   const std::uint32_t first = find(0), second = find(8);
   for (Triangle& t : mesh.triangles) std::replace(t.begin(), t.end(), second, first);

@@ -176,8 +176,7 @@ class Mesher {
 
   double voxel_mm_;
   Vec3 origin_mm_;
-  std::array<std::int32_t, 3> low_{std::numeric_limits<std::int32_t>::max(),
-                                   std::numeric_limits<std::int32_t>::max(),
+  std::array<std::int32_t, 3> low_{std::numeric_limits<std::int32_t>::max(), std::numeric_limits<std::int32_t>::max(),
                                    std::numeric_limits<std::int32_t>::max()};
   EdgeVertices vertices_;
   TriangleMesh mesh_;

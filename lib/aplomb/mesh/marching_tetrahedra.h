@@ -13,8 +13,7 @@ namespace aplomb {
 /// `ijk`.
 struct CornerCell {
   std::array<std::int32_t, 3> ijk{};
-  std::array<float, 8>
-      values{};  ///< corner c stands at ijk + (c & 1, c >> 1 & 1, c >> 2 & 1); negative is inside
+  std::array<float, 8> values{};  ///< corner c stands at ijk + (c & 1, c >> 1 & 1, c >> 2 & 1); negative is inside
 };
 
 /// Meshes the zero of a sampled field: six tetrahedra round the main diagonal of every cell (Kuhn's split,

@@ -21,8 +21,8 @@ std::vector<bool> degenerate_triangles(const TriangleMesh& mesh) {
   std::vector<bool> degenerate(mesh.triangles.size());
   for (std::size_t i = 0; i < degenerate.size(); ++i) {
     const auto [a, b, c] = mesh.triangles[i];
-    degenerate[i] = a == b || b == c || c == a ||
-                    adapters::are_collinear(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]);
+    degenerate[i] =
+        a == b || b == c || c == a || adapters::are_collinear(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]);
   }
   return degenerate;
 }
@@ -57,9 +57,7 @@ std::size_t count_duplicates(const TriangleMesh& mesh, const EdgeTable& edges) {
 std::size_t count_nonmanifold_vertices(const TriangleMesh& mesh, const EdgeTable& edges) {
   detail::DisjointSets fans(3 * mesh.triangles.size());
   edges.for_each([&](std::uint32_t low, std::uint32_t, std::span<const Corner> corners) {
-    const auto at = [&](Corner c, bool at_low) {
-      return (vertex_at(mesh, c) == low) == at_low ? c : next_corner(c);
-    };
+    const auto at = [&](Corner c, bool at_low) { return (vertex_at(mesh, c) == low) == at_low ? c : next_corner(c); };
     for (const Corner c : corners.subspan(1))
       for (const bool at_low : {true, false}) fans.join(at(corners[0], at_low), at(c, at_low));
   });
@@ -73,22 +71,6 @@ std::size_t count_nonmanifold_vertices(const TriangleMesh& mesh, const EdgeTable
   return nonmanifold;
 }
 
-std::vector<double> volumes_of(const TriangleMesh& mesh, const Components& components) {
-  std::vector<double> six_volumes(components.count);
-  std::vector<std::uint32_t> origins(components.count, 0xFFFFFFFF);
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const std::uint32_t component = components.of_triangle[t];
-    if (origins[component] == 0xFFFFFFFF) origins[component] = mesh.triangles[t][0];
-    const Vec3 origin = mesh.vertices[origins[component]];
-    const Vec3 a = mesh.vertices[mesh.triangles[t][0]] - origin,
-               b = mesh.vertices[mesh.triangles[t][1]] - origin,
-               c = mesh.vertices[mesh.triangles[t][2]] - origin;
-    six_volumes[component] += dot(a, cross(b, c));
-  }
-  for (double& volume : six_volumes) volume /= 6;
-  return six_volumes;
-}
-
 TriangleMesh without_unused_vertices(TriangleMesh mesh) {
   std::vector<bool> used(mesh.vertices.size());
   for (const Triangle& t : mesh.triangles)
@@ -100,8 +82,8 @@ TriangleMesh without_unused_vertices(TriangleMesh mesh) {
 void append(std::string& text, std::size_t count, const char* one, const char* many) {
   if (count == 0) return;
   if (!text.empty()) text += ", ";
-  text += (count >= detail::most_crossings ? "at least " : "") + std::to_string(count) + " " +
-          (count == 1 ? one : many);
+  text +=
+      (count >= detail::most_crossings ? "at least " : "") + std::to_string(count) + " " + (count == 1 ? one : many);
 }
 
 }  // namespace
@@ -109,10 +91,8 @@ void append(std::string& text, std::size_t count, const char* one, const char* m
 std::string describe(const MeshDefects& defects) {
   std::string text;
   append(text, defects.open_edges, "open edge", "open edges");
-  append(text, defects.nonmanifold_edges, "edge of more than two triangles",
-         "edges of more than two triangles");
-  append(text, defects.nonmanifold_vertices, "vertex where parts only touch",
-         "vertices where parts only touch");
+  append(text, defects.nonmanifold_edges, "edge of more than two triangles", "edges of more than two triangles");
+  append(text, defects.nonmanifold_vertices, "vertex where parts only touch", "vertices where parts only touch");
   append(text, defects.flipped_edges, "edge between flipped triangles", "edges between flipped triangles");
   append(text, defects.degenerate_triangles, "degenerate triangle", "degenerate triangles");
   append(text, defects.duplicate_triangles, "duplicate triangle", "duplicate triangles");
@@ -143,8 +123,7 @@ Result<SolidCheck> check_solid(const TriangleMesh& given, const Job& job) {
   SolidCheck check;
   MeshDefects& defects = check.defects;
   const std::vector<bool> degenerate = degenerate_triangles(mesh);
-  defects.degenerate_triangles =
-      static_cast<std::size_t>(std::count(degenerate.begin(), degenerate.end(), true));
+  defects.degenerate_triangles = static_cast<std::size_t>(std::count(degenerate.begin(), degenerate.end(), true));
   const EdgeTable edges(mesh);
   count_edge_defects(mesh, edges, defects);
   defects.duplicate_triangles = count_duplicates(mesh, edges);
@@ -158,17 +137,19 @@ Result<SolidCheck> check_solid(const TriangleMesh& given, const Job& job) {
   if (!closed) return check;
 
   const Components components = edge_components(mesh, edges);
-  const std::vector<double> volumes = volumes_of(mesh, components);
+  const std::vector<double> volumes = detail::volumes_mm3(mesh, components);
   if (*crossings > 0) {  // nesting means nothing then, but a lone shell has an inside
     defects.misoriented_shells = components.count == 1 && volumes[0] < 0;
     return check;
   }
-  const std::vector<int> windings = windings_round_components(mesh, tree, components);
+  const auto enclosing = enclosures(mesh, tree, components);
   std::size_t voids = 0;
   for (std::uint32_t c = 0; c < components.count; ++c) {
     const bool is_void = volumes[c] < 0;
     voids += is_void;
-    defects.misoriented_shells += windings[c] != (is_void ? 1 : 0);
+    int winding = 0;
+    for (const detail::Enclosure& enclosure : enclosing[c]) winding += enclosure.winding;
+    defects.misoriented_shells += winding != (is_void ? 1 : 0);
   }
   if (defects.none()) check.solid = SolidMeshMaker::make(std::move(mesh), components.count - voids, voids);
   return check;

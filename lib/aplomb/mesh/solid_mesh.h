@@ -27,6 +27,12 @@ struct MeshDefects {
 
   friend bool operator==(const MeshDefects&, const MeshDefects&) = default;
   bool none() const { return *this == MeshDefects{}; }
+  /// Closed, 2-manifold and wound alike; it may cross itself or be nested wrongly.
+  bool manifold() const {
+    return open_edges + nonmanifold_edges + nonmanifold_vertices + flipped_edges + degenerate_triangles +
+               duplicate_triangles ==
+           0;
+  }
 };
 
 /// "12 open edges, 3 self-intersections", or "no defect".

@@ -9,12 +9,8 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
-Kernel::Point_3 point(const Vec3& p) {
-  return {p.x, p.y, p.z};
-}
-Kernel::Triangle_3 triangle(const Corners& c) {
-  return {point(c[0]), point(c[1]), point(c[2])};
-}
+Kernel::Point_3 point(const Vec3& p) { return {p.x, p.y, p.z}; }
+Kernel::Triangle_3 triangle(const Corners& c) { return {point(c[0]), point(c[1]), point(c[2])}; }
 
 }  // namespace
 
@@ -27,15 +23,14 @@ int orientation(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
   const double permanent = std::abs(u.x) * (std::abs(vw) + std::abs(wv)) +
                            std::abs(v.x) * (std::abs(wu) + std::abs(uw)) +
                            std::abs(w.x) * (std::abs(uv) + std::abs(vu));
+  if (permanent == 0) return 0;  // as on a plane along the axes
   const double bound = 7.7715611723761027e-16 * permanent;
   if (determinant > bound) return 1;
   if (determinant < -bound) return -1;
   return static_cast<int>(CGAL::orientation(point(a), point(b), point(c), point(d)));
 }
 
-bool triangles_meet(const Corners& a, const Corners& b) {
-  return CGAL::do_intersect(triangle(a), triangle(b));
-}
+bool triangles_meet(const Corners& a, const Corners& b) { return CGAL::do_intersect(triangle(a), triangle(b)); }
 
 bool triangle_meets_segment(const Corners& a, Vec3 from, Vec3 to) {
   return CGAL::do_intersect(triangle(a), Kernel::Segment_3(point(from), point(to)));

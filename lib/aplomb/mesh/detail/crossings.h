@@ -1,5 +1,6 @@
 #pragma once
 
+#include <compare>
 #include <cstddef>
 #include <vector>
 
@@ -26,11 +27,34 @@ Result<std::size_t> count_crossings(const TriangleMesh& mesh, const TriangleTree
 Result<std::vector<bool>> crossing_triangles(const TriangleMesh& mesh, const TriangleTree& tree,
                                              const std::vector<bool>& skipped, const Job& job);
 
-/// How often each component is enclosed by the other ones, at its first vertex: the sum of their winding
-/// numbers.
+/// Whether two triangles meet anywhere but in the vertices and edges they share; exact.
 ///
-/// \pre  Every component is closed and touches no other one.
-std::vector<int> windings_round_components(const TriangleMesh& mesh, const TriangleTree& tree,
-                                           const Components& components);
+/// \pre Neither is degenerate.
+bool cross(const TriangleMesh& mesh, const Triangle& s, const Triangle& t);
+
+/// Two components that cross or touch, low < high.
+struct ComponentPair {
+  std::uint32_t low = 0, high = 0;
+  friend auto operator<=>(const ComponentPair&, const ComponentPair&) = default;
+};
+
+/// Every such pair, ascending; degenerate triangles touch nothing.
+std::vector<ComponentPair> meeting_components(const TriangleMesh& mesh, const TriangleTree& tree,
+                                              const Components& components);
+
+/// A component that encloses another one, and how often it winds round it: +1 when it is wound outward.
+struct Enclosure {
+  std::uint32_t component = 0;
+  int winding = 0;
+};
+
+/// What encloses the first vertex of each component.
+///
+/// \pre  Every component is closed and touches no other one; else the answer is that of a ray straight up.
+std::vector<std::vector<Enclosure>> enclosures(const TriangleMesh& mesh, const TriangleTree& tree,
+                                               const Components& components);
+
+/// The volume each component encloses, negative when it is wound inward.
+std::vector<double> volumes_mm3(const TriangleMesh& mesh, const Components& components);
 
 }  // namespace aplomb::detail

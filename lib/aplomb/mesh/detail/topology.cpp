@@ -23,9 +23,7 @@ EdgeTable::EdgeTable(const TriangleMesh& mesh) : starts_(mesh.vertices.size() + 
   };
   std::vector<Use> uses(starts_.back());
   std::vector<std::size_t> ends(starts_.begin(), starts_.end() - 1);
-  for_each_directed_edge(mesh, [&](std::uint32_t low, std::uint32_t high, Corner c) {
-    uses[ends[low]++] = {high, c};
-  });
+  for_each_directed_edge(mesh, [&](std::uint32_t low, std::uint32_t high, Corner c) { uses[ends[low]++] = {high, c}; });
   highs_.resize(uses.size());
   corners_.resize(uses.size());
   for (std::size_t low = 0; low + 1 < starts_.size(); ++low) {

@@ -15,12 +15,8 @@ namespace aplomb::detail {
 /// t.
 using Corner = std::uint32_t;
 
-constexpr Corner next_corner(Corner c) {
-  return c % 3 == 2 ? c - 2 : c + 1;
-}
-inline std::uint32_t vertex_at(const TriangleMesh& mesh, Corner c) {
-  return mesh.triangles[c / 3][c % 3];
-}
+constexpr Corner next_corner(Corner c) { return c % 3 == 2 ? c - 2 : c + 1; }
+inline std::uint32_t vertex_at(const TriangleMesh& mesh, Corner c) { return mesh.triangles[c / 3][c % 3]; }
 inline Triangle sorted(Triangle t) {
   std::sort(t.begin(), t.end());
   return t;

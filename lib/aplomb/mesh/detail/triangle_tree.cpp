@@ -9,8 +9,7 @@ namespace {
 FloatBox box_of(const TriangleMesh& mesh, const Triangle& t) {
   FloatBox box{};
   for (int axis = 0; axis < 3; ++axis) {
-    const auto a = static_cast<float>(mesh.vertices[t[0]][axis]),
-               b = static_cast<float>(mesh.vertices[t[1]][axis]),
+    const auto a = static_cast<float>(mesh.vertices[t[0]][axis]), b = static_cast<float>(mesh.vertices[t[1]][axis]),
                c = static_cast<float>(mesh.vertices[t[2]][axis]);
     box.min[axis] = std::min({a, b, c});
     box.max[axis] = std::max({a, b, c});
@@ -57,8 +56,7 @@ TriangleTree::TriangleTree(const TriangleMesh& mesh) {
   assert(!mesh.triangles.empty());
   std::vector<FloatBox> boxes(mesh.triangles.size());
   FloatBox all = box_of(mesh, mesh.triangles[0]);
-  for (std::size_t t = 0; t < boxes.size(); ++t)
-    all = united(all, boxes[t] = box_of(mesh, mesh.triangles[t]));
+  for (std::size_t t = 0; t < boxes.size(); ++t) all = united(all, boxes[t] = box_of(mesh, mesh.triangles[t]));
   std::array<double, 3> scale{};
   for (int axis = 0; axis < 3; ++axis) {
     const double size = double{all.max[axis]} - all.min[axis];

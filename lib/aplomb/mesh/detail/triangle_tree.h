@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "aplomb/mesh/triangle_mesh.h"
@@ -13,8 +14,8 @@ struct FloatBox {
   std::array<float, 3> min, max;
 
   bool meets(const FloatBox& b) const {
-    return min[0] <= b.max[0] && b.min[0] <= max[0] && min[1] <= b.max[1] && b.min[1] <= max[1] &&
-           min[2] <= b.max[2] && b.min[2] <= max[2];
+    return min[0] <= b.max[0] && b.min[0] <= max[0] && min[1] <= b.max[1] && b.min[1] <= max[1] && min[2] <= b.max[2] &&
+           b.min[2] <= max[2];
   }
 };
 
@@ -53,6 +54,35 @@ class TriangleTree {
     });
   }
 
+  /// Calls visit(t) for triangles whose box is nearer than `bound`, which visit lowers; near children first.
+  template <class Distance, class Visit>
+  void for_each_nearest_first(Distance&& distance, const double& bound, Visit&& visit) const {
+    struct Node {
+      std::uint32_t level, index;
+      double distance;
+    };
+    std::array<Node, 64> stack;
+    std::size_t depth = 0;
+    stack[depth++] = {static_cast<std::uint32_t>(levels_.size() - 1), 0, distance(levels_.back()[0])};
+    while (depth > 0) {
+      const Node node = stack[--depth];
+      if (node.distance >= bound) continue;
+      if (node.level == 0) {
+        for (std::uint32_t i = node.index * leaf_size; i < leaf_end(node.index); ++i)
+          if (distance(boxes_[i]) < bound) visit(order_[i]);
+        continue;
+      }
+      const std::vector<FloatBox>& below = levels_[node.level - 1];
+      Node near{node.level - 1, 2 * node.index, distance(below[2 * node.index])};
+      if (2 * node.index + 1 < below.size()) {
+        Node far{node.level - 1, 2 * node.index + 1, distance(below[2 * node.index + 1])};
+        if (far.distance < near.distance) std::swap(near, far);
+        stack[depth++] = far;
+      }
+      stack[depth++] = near;
+    }
+  }
+
  private:
   std::uint32_t leaf_end(std::uint32_t leaf) const {
     return std::min((leaf + 1) * leaf_size, static_cast<std::uint32_t>(order_.size()));
@@ -68,15 +98,13 @@ class TriangleTree {
     stack[depth++] = {static_cast<std::uint32_t>(levels_.size() - 1), 0};
     while (depth > 0) {
       const Node node = stack[--depth];
-      if (((std::uint64_t{node.index} + 1) << node.level) <= first_leaf ||
-          !meets(levels_[node.level][node.index]))
+      if (((std::uint64_t{node.index} + 1) << node.level) <= first_leaf || !meets(levels_[node.level][node.index]))
         continue;
       if (node.level == 0) {
         visit_leaf(node.index);
         continue;
       }
-      if (2 * node.index + 1 < levels_[node.level - 1].size())
-        stack[depth++] = {node.level - 1, 2 * node.index + 1};
+      if (2 * node.index + 1 < levels_[node.level - 1].size()) stack[depth++] = {node.level - 1, 2 * node.index + 1};
       stack[depth++] = {node.level - 1, 2 * node.index};
     }
   }
