@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -126,6 +127,38 @@ TEST(Repair, cubes_that_share_a_face_become_one) {
   const Repaired result = repaired(joined(cube(), test::box({10, 0, 0}, {20, 10, 10})));
   EXPECT_NEAR(result.report.volume_after_mm3, 2000, 1e-6);
   EXPECT_EQ(result.solid.bodies(), 1U);
+}
+
+TEST(Repair, a_wall_of_two_sides_between_two_rooms_of_one_surface_goes) {
+  TriangleMesh mesh = joined(cube(), test::box({10, 0, 0}, {20, 10, 10}));
+  // Both walls at x = 10, cut alike.
+  std::erase_if(mesh.triangles, [&](const Triangle& t) {
+    return std::all_of(t.begin(), t.end(), [&](std::uint32_t v) { return mesh.vertices[v].x == 10; });
+  });
+  const auto wall = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), {{10, 0, 0}, {10, 10, 0}, {10, 10, 10}, {10, 0, 10}});
+  for (const Triangle t : {Triangle{0, 1, 2}, Triangle{0, 2, 3}}) {
+    mesh.triangles.push_back({wall + t[0], wall + t[1], wall + t[2]});
+    mesh.triangles.push_back({wall + t[2], wall + t[1], wall + t[0]});
+  }
+  const Repaired result = repaired(mesh);
+  EXPECT_EQ(result.report.method, RepairMethod::soup);
+  EXPECT_NEAR(result.report.volume_after_mm3, 2000, 1e-9);
+}
+
+TEST(Repair, a_surface_of_two_sides_everywhere_keeps_one) {
+  const Repaired result = repaired(joined(cube(), reversed(cube())));
+  EXPECT_EQ(result.report.method, RepairMethod::soup);
+  EXPECT_NEAR(result.report.volume_after_mm3, 1000, 1e-9);
+}
+
+TEST(Repair, a_sheet_on_a_body_is_not_lost_in_silence) {
+  TriangleMesh mesh = cube();
+  const auto sheet = static_cast<std::uint32_t>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), {{5, 5, 10}, {5, 5, 30}, {5, 8, 30}});
+  mesh.triangles.push_back({sheet, sheet + 1, sheet + 2});
+  EXPECT_NE(reason_against(mesh).find("no thickness"), std::string::npos);
+  EXPECT_NEAR(repaired(mesh, {.insist = true}).report.volume_after_mm3, 1000, 10);
 }
 
 TEST(Repair, cubes_that_share_an_edge_or_a_vertex_keep_their_volume) {

@@ -101,11 +101,8 @@ class Repair {
     if (!defects_.manifold()) {
       const Result<ClosedSurface> closed = detail::closed_surface(mesh_, limits(), job_.part(0.15, 0.35));
       if (!closed && closed.error().code == ErrorCode::cancelled) return cancelled();
-      if (closed) {
-        take(*closed);
-      } else {
-        say("The holes could not be filled one by one (" + closed.error().message + ").");
-      }
+      if (closed) take(*closed);
+      if (!closed) say("The holes could not be filled one by one (" + closed.error().message + ").");
       closed_ = mesh_;
       solid = is_solid(mesh_, 0.35, 0.4);
       if (!solid || *solid || !defects_.manifold()) return solid;
@@ -146,7 +143,7 @@ class Repair {
     }
     if (closed.holes_left > 0) say(counted(closed.holes_left, "hole", "holes") + " could not be filled.");
     mesh_ = detail::welded(closed.mesh);
-    // Welding joins again what was cut apart where it touched; the checks below see it as what it is.
+    // Welding joins again what was cut apart.
     const Result<SolidCheck> check = check_solid(mesh_);
     if (!check || !check->defects.manifold()) mesh_ = rounded_to_float(closed.mesh);
   }
@@ -273,13 +270,29 @@ class Repair {
     return finished(RepairMethod::remeshed);
   }
 
+  /// What the box says of parts that got lost; empty when it is as it was.
+  std::string what_was_lost() const {
+    constexpr double most_ratio = 0.015;
+    const Box3 before = bounding_box(detail::welded(input_)), after = solid_->box();
+    const double most_mm = most_ratio * before.diagonal();
+    if (norm(after.min - before.min) <= most_mm && norm(after.max - before.max) <= most_mm) return {};
+    const auto sides = [](Vec3 size) { return length(size.x) + " x " + length(size.y) + " x " + length(size.z); };
+    return "parts of it have no thickness: " + sides(before.size()) + " would become " + sides(after.size()) +
+           "; thicken them in a modeller, or insist (--repair force)";
+  }
+
   Result<Repaired> finished(RepairMethod method) {
+    if (const std::string lost = what_was_lost(); !lost.empty()) {
+      if (!options_.insist) return refuse(lost);
+      say("Parts without thickness were lost.");
+    }
     report_.method = method;
     report_.outer_unchanged = detail::same_triangles(input_, solid_->mesh());
     report_.volume_after_mm3 = solid_->moments().volume_mm3;
-    if (!report_.outer_unchanged)
-      report_.max_deviation_mm =
-          detail::largest_distance_mm(solid_->mesh(), closed_.triangles.empty() ? mesh_ : closed_);
+    if (!report_.outer_unchanged) {
+      const TriangleMesh& whole = closed_.triangles.empty() ? mesh_ : closed_;
+      report_.max_deviation_mm = detail::largest_distance_mm(detail::new_triangles(solid_->mesh(), whole), whole);
+    }
     if (method != RepairMethod::none && solid_->bodies() > 1)
       say("The solid is in " + std::to_string(solid_->bodies()) + " pieces that do not touch.");
     if (!job_.report(1, "repair")) return cancelled();

@@ -13,7 +13,7 @@ double distance_mm(Vec3 p, const TriangleMesh& mesh, const TriangleTree& tree, d
 
 /// The largest distance to `surface` of the vertices and triangle centres of `mesh`.
 ///
-/// \pre Both have float32 coordinates and triangles.
+/// \pre Both have float32 coordinates; surface has triangles.
 double largest_distance_mm(const TriangleMesh& mesh, const TriangleMesh& surface);
 
 }  // namespace aplomb::detail

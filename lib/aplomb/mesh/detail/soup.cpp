@@ -18,6 +18,20 @@ Place place_of(Vec3 v) {  // + 0 makes a zero of -0
   return {static_cast<float>(v.x) + 0.0F, static_cast<float>(v.y) + 0.0F, static_cast<float>(v.z) + 0.0F};
 }
 
+/// The corners' places of a triangle, the least first.
+using Placed = std::array<Place, 3>;
+
+std::vector<Placed> placed(const TriangleMesh& mesh) {
+  std::vector<Placed> list;
+  list.reserve(mesh.triangles.size());
+  for (const Triangle& t : mesh.triangles) {
+    Placed corners{place_of(mesh.vertices[t[0]]), place_of(mesh.vertices[t[1]]), place_of(mesh.vertices[t[2]])};
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    list.push_back(corners);
+  }
+  return list;
+}
+
 struct PlaceHash {
   std::size_t operator()(const Place& p) const {
     std::size_t hash = 0;
@@ -116,30 +130,65 @@ std::size_t remove_degenerate(TriangleMesh& mesh) {
   return std::erase_if(mesh.triangles, [&](const Triangle& t) { return is_degenerate(mesh, t); });
 }
 
-std::size_t remove_duplicates(TriangleMesh& mesh) {
+/// Triangles with the same three corners.
+struct Stack {
+  std::vector<std::uint32_t> triangles;
+  int balance = 0;  // of their windings
+  bool two_sided() const { return static_cast<std::size_t>(std::abs(balance)) < triangles.size(); }
+};
+
+std::vector<Stack> stacks_of(const TriangleMesh& mesh) {
   std::vector<std::pair<Triangle, std::uint32_t>> keyed(mesh.triangles.size());
   for (std::uint32_t t = 0; t < keyed.size(); ++t) keyed[t] = {sorted(mesh.triangles[t]), t};
   std::sort(keyed.begin(), keyed.end());
-  std::vector<bool> removed(keyed.size());
-  std::vector<std::size_t> uses;
+  std::vector<Stack> stacks;
   for (std::size_t first = 0, last; first < keyed.size(); first = last) {
-    int balance = 0;
-    for (last = first; last < keyed.size() && keyed[last].first == keyed[first].first; ++last)
-      balance += winding(mesh.triangles[keyed[last].second]);
-    const std::size_t count = last - first;
-    if (count == 1) continue;
-    if (uses.empty()) uses = uses_of_corners(mesh);
-    const Corner corner = 3 * keyed[first].second;
-    const int even_edges = ((uses[corner] - count) % 2 == 0) + ((uses[corner + 1] - count) % 2 == 0) +
-                           ((uses[corner + 2] - count) % 2 == 0);
-    const bool all_alike = static_cast<std::size_t>(std::abs(balance)) == count;
-    const bool keep_one = all_alike || even_edges < 2;
-    const int kept_winding = balance >= 0 ? 1 : -1;
-    bool kept = !keep_one;
-    for (std::size_t i = first; i < last; ++i) {
-      const bool keeps = !kept && winding(mesh.triangles[keyed[i].second]) == kept_winding;
-      removed[keyed[i].second] = !keeps;
-      kept = kept || keeps;
+    Stack stack;
+    for (last = first; last < keyed.size() && keyed[last].first == keyed[first].first; ++last) {
+      stack.triangles.push_back(keyed[last].second);
+      stack.balance += winding(mesh.triangles[keyed[last].second]);
+    }
+    if (stack.triangles.size() > 1) stacks.push_back(std::move(stack));
+  }
+  return stacks;
+}
+
+/// Marks the triangles of two-sided patches that are walls between bodies: without the patch, the surfaces at its rim
+/// still pair up. A surface that has two sides everywhere has no such rim.
+std::vector<bool> triangles_of_walls(const TriangleMesh& mesh, const std::vector<Stack>& stacks) {
+  std::vector<bool> two_sided(mesh.triangles.size());
+  for (const Stack& stack : stacks)
+    for (const std::uint32_t t : stack.triangles) two_sided[t] = stack.two_sided();
+  DisjointSets patches(mesh.triangles.size());
+  const EdgeTable edges(mesh);
+  std::vector<std::pair<std::uint32_t, int>> votes;  // a triangle at a rim, for a wall or against
+  edges.for_each([&](std::uint32_t, std::uint32_t, std::span<const Corner> corners) {
+    const auto patch = std::find_if(corners.begin(), corners.end(), [&](Corner c) { return two_sided[c / 3]; });
+    if (patch == corners.end()) return;
+    std::size_t others = 0;
+    for (const Corner c : corners)
+      if (two_sided[c / 3]) patches.join(*patch / 3, c / 3);
+      else ++others;
+    if (others > 0) votes.emplace_back(*patch / 3, others % 2 == 0 ? 1 : -1);
+  });
+  std::vector<int> sums(mesh.triangles.size());
+  for (const auto& [triangle, vote] : votes) sums[patches.find(triangle)] += vote;
+  std::vector<bool> walls(mesh.triangles.size());
+  for (std::uint32_t t = 0; t < walls.size(); ++t) walls[t] = two_sided[t] && sums[patches.find(t)] > 0;
+  return walls;
+}
+
+std::size_t remove_duplicates(TriangleMesh& mesh) {
+  const std::vector<Stack> stacks = stacks_of(mesh);
+  if (stacks.empty()) return 0;
+  std::vector<bool> removed = triangles_of_walls(mesh, stacks);
+  for (const Stack& stack : stacks) {
+    if (removed[stack.triangles[0]]) continue;
+    const int kept_winding = stack.balance >= 0 ? 1 : -1;
+    bool kept = false;
+    for (const std::uint32_t t : stack.triangles) {
+      removed[t] = kept || winding(mesh.triangles[t]) != kept_winding;
+      kept = kept || !removed[t];
     }
   }
   std::uint32_t index = 0;
@@ -232,18 +281,17 @@ TriangleMesh welded(const TriangleMesh& mesh) {
 
 bool same_triangles(const TriangleMesh& a, const TriangleMesh& b) {
   if (a.triangles.size() != b.triangles.size()) return false;
-  const auto listed = [](const TriangleMesh& mesh) {
-    std::vector<std::array<Place, 3>> list;
-    for (const Triangle& t : mesh.triangles) {
-      std::array<Place, 3> corners{place_of(mesh.vertices[t[0]]), place_of(mesh.vertices[t[1]]),
-                                   place_of(mesh.vertices[t[2]])};
-      std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
-      list.push_back(corners);
-    }
-    std::sort(list.begin(), list.end());
-    return list;
-  };
-  return listed(a) == listed(b);
+  std::vector<Placed> in_a = placed(a), in_b = placed(b);
+  std::sort(in_a.begin(), in_a.end());
+  std::sort(in_b.begin(), in_b.end());
+  return in_a == in_b;
+}
+
+TriangleMesh new_triangles(const TriangleMesh& mesh, const TriangleMesh& old) {
+  std::vector<Placed> in_old = placed(old);
+  std::sort(in_old.begin(), in_old.end());
+  const std::vector<Placed> in_mesh = placed(mesh);
+  return submesh(mesh, [&](std::uint32_t t) { return !std::binary_search(in_old.begin(), in_old.end(), in_mesh[t]); });
 }
 
 CleanSoup cleaned(const TriangleMesh& mesh) {

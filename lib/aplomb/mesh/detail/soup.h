@@ -12,6 +12,9 @@ TriangleMesh welded(const TriangleMesh& mesh);
 /// Whether both hold the same triangles, whatever their order, numbering and first corner.
 bool same_triangles(const TriangleMesh& a, const TriangleMesh& b);
 
+/// The triangles of `mesh` that `old` has nowhere.
+TriangleMesh new_triangles(const TriangleMesh& mesh, const TriangleMesh& old);
+
 struct CleanSoup {
   TriangleMesh mesh;
   std::size_t merged = 0;       ///< vertices within 4 ulp of another one
@@ -22,8 +25,8 @@ struct CleanSoup {
 
 /// Takes out of a triangle soup what has no say in its shape.
 ///
-/// Two triangles on the same corners become one when they are wound alike; wound against each other both go when the
-/// edges then still pair up (a wall between two bodies that meet face to face), else one stays.
+/// Triangles on the same corners become one. But a patch of two-sided triangles that is a wall between two bodies goes:
+/// where the surfaces at its rim pair up without it.
 ///
 /// \pre  mesh is welded.
 /// \post No degenerate and no duplicate triangle; the surface moved by at most 4 ulp of the largest coordinate.
