@@ -107,8 +107,8 @@ class Repair {
       solid = is_solid(mesh_, 0.35, 0.4);
       if (!solid || *solid || !defects_.manifold()) return solid;
     }
-    closed_ = mesh_;
     nest();
+    closed_ = mesh_;
     if (mesh_.triangles.empty()) return refuse_as<bool>("no shell of it encloses anything");
     return is_solid(mesh_, 0.4, 0.45);
   }
