@@ -1,0 +1,16 @@
+#pragma once
+
+#include <filesystem>
+
+namespace aplomb::cli {
+
+/// From now on Ctrl-C (and SIGTERM) makes interrupted() true; if the program has not ended 150 ms later, the pending
+/// temporary file is removed and the program ends with `exit_code` on the spot.
+void catch_interrupts(int exit_code);
+
+bool interrupted();
+
+/// The temporary file to remove, or an empty path for none; for WriteOptions::on_temp_file.
+void remember_temp_file(const std::filesystem::path& path);
+
+}  // namespace aplomb::cli

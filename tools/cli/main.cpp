@@ -1,0 +1,18 @@
+#include <exception>
+#include <iostream>
+
+#include "interrupt.h"
+#include "run.h"
+
+int main(int argc, char** argv) {
+  using namespace aplomb::cli;
+  const Parsed parsed = parse_arguments(argc, argv);
+  if (!parsed.arguments) return parsed.exit_code;
+  catch_interrupts(cancelled_exit);
+  try {
+    return run(*parsed.arguments);
+  } catch (const std::exception& error) {  // a bug, or memory ran out
+    std::cerr << "aplomb: internal error: " << error.what() << '\n';
+    return 7;
+  }
+}
