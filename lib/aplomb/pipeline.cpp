@@ -42,20 +42,29 @@ std::string several_prints(const std::vector<TriangleMesh>& prints) {
     list += fmt::format("{}{}: {:.4g} x {:.4g} x {:.4g} mm, {} triangles", i == 0 ? "" : "; ", i + 1, size.x, size.y,
                         size.z, prints[i].triangles.size());
   }
-  return fmt::format("the file holds {} prints that do not touch ({}{}): choose one with --object N", prints.size(), list,
-                     prints.size() > 10 ? "; ..." : "");
+  return fmt::format("the file holds {} prints that do not touch ({}{}): choose one with --object N", prints.size(),
+                     list, prints.size() > 10 ? "; ..." : "");
 }
 
-/// Everything in the file that touches is one print.
-Result<TriangleMesh> choose_print(const MeshFile& file, std::optional<std::size_t> object) {
+TriangleMesh all_objects(const MeshFile& file) {
   TriangleMesh all;
   for (const MeshObject& part : file.objects) all = joined(std::move(all), part.mesh);
+  return all;
+}
+
+/// Everything in the file that touches is one print. Without a number all of them are taken, and `several` says how
+/// many there are: an open surface may look like several until it is repaired.
+Result<TriangleMesh> choose_print(const MeshFile& file, std::optional<std::size_t> object, std::string& several) {
+  TriangleMesh all = all_objects(file);
   std::vector<TriangleMesh> prints = split_prints(all);
-  if (object && (*object < 1 || *object > prints.size()))
+  if (!object) {
+    if (prints.size() > 1) several = several_prints(prints);
+    return all;
+  }
+  if (*object < 1 || *object > prints.size())
     return fail(ErrorCode::invalid_option,
                 fmt::format("--object is {}; the file holds {} prints, counted from 1", *object, prints.size()));
-  if (!object && prints.size() > 1) return fail(ErrorCode::unusable_input, several_prints(prints));
-  return std::move(prints[object.value_or(1) - 1]);
+  return std::move(prints[*object - 1]);
 }
 
 /// A unit given by the user replaces the file's, which the reader has applied.
@@ -83,7 +92,8 @@ Report begin_report(const Input& input, const StandOptions& options, const Stand
   report.before = before;
   report.repair = input.repair.steps;
   report.hints = input.notes;
-  report.mesh = MeshFigures{input.repair.outer_unchanged, true, 0, input.solid.voids(), input.solid.mesh().triangles.size()};
+  report.mesh =
+      MeshFigures{input.repair.outer_unchanged, true, 0, input.solid.voids(), input.solid.mesh().triangles.size()};
   return report;
 }
 
@@ -117,7 +127,8 @@ Result<CarvedShell> carve_shell(const SolidVolume& volume, const Input& input, c
 }
 
 /// How far half the wall would go: carved on a coarse grid, for advice only.
-std::optional<double> tip_with_half_wall(const Input& input, const BalanceProblem& problem, const StandOptions& options) {
+std::optional<double> tip_with_half_wall(const Input& input, const BalanceProblem& problem,
+                                         const StandOptions& options) {
   VolumeOptions coarse{options.wall_mm / 2, options.wall_mm / 4, 0, options.memory_bytes};
   const auto volume = voxelize(input.solid, coarse);
   if (!volume) return std::nullopt;
@@ -128,13 +139,15 @@ std::optional<double> tip_with_half_wall(const Input& input, const BalanceProble
 void add_remedies(Report& report, const Input& input, const BalanceProblem& problem, const StandOptions& options,
                   const Standing& best) {
   if (const auto tip_rad = tip_with_half_wall(input, problem, options))
-    report.hints.push_back(fmt::format("with a wall of {:.3g} mm, or printed twice as high with the wall as it is, carving "
-                                       "could reach about {:.1f} degrees",
-                                       options.wall_mm / 2, *tip_rad / degree));
+    report.hints.push_back(
+        fmt::format("with a wall of {:.3g} mm, or printed twice as high with the wall as it is, carving "
+                    "could reach about {:.1f} degrees",
+                    options.wall_mm / 2, *tip_rad / degree));
   if (best.pedestal)
     report.hints.push_back(fmt::format("on a round pedestal {:.3g} mm across and {:.3g} mm thick it would stand",
                                        2 * best.pedestal->radius_mm, best.pedestal->thickness_mm));
-  report.hints.push_back("a wider base, or a pose that leans less, would help; bending the surface is not in this version");
+  report.hints.push_back(
+      "a wider base, or a pose that leans less, would help; bending the surface is not in this version");
 }
 
 }  // namespace
@@ -143,7 +156,8 @@ Result<Input> load_solid(const std::filesystem::path& path, const InputOptions& 
                          const StageViewer& view) {
   const auto file = read_mesh(path, options.read, job.part(0, 0.3));
   if (!file) return tl::unexpected(file.error());
-  const auto print = choose_print(*file, options.object);
+  std::string several;
+  const auto print = choose_print(*file, options.object, several);
   if (!print) return tl::unexpected(print.error());
   if (view) view("1-read", *print);
   const auto placed = place(*print, with_file_unit(options.placement, *file));
@@ -151,6 +165,8 @@ Result<Input> load_solid(const std::filesystem::path& path, const InputOptions& 
   if (view) view("2-placed", placed->mesh);
   auto repaired = repair(placed->mesh, options.repair, job.part(0.3, 1));
   if (!repaired) return tl::unexpected(repaired.error());
+  if (!several.empty() && split_prints(repaired->solid.mesh()).size() > 1)
+    return fail(ErrorCode::unusable_input, std::move(several));
   if (view) view("3-solid", repaired->solid.mesh());
   Input input{repaired->solid, repaired->solid.moments(), std::move(repaired->report), file->notes};
   if (!options.placement.up)
@@ -189,9 +205,9 @@ Result<StandRun> stand(const Input& input, const StandOptions& options, const Jo
   }
 
   const double voxel = voxel_mm(options, input.solid.box());
-  const auto volume = voxelize(input.solid,
-                               {options.wall_mm, voxel, std::min(options.least_void_mm, 32 * voxel), options.memory_bytes},
-                               job.part(0, 0.4));
+  const auto volume =
+      voxelize(input.solid, {options.wall_mm, voxel, std::min(options.least_void_mm, 32 * voxel), options.memory_bytes},
+               job.part(0, 0.4));
   if (!volume) return tl::unexpected(volume.error());
   clock.lap("voxelize");
 
@@ -209,9 +225,10 @@ Result<StandRun> stand(const Input& input, const StandOptions& options, const Jo
   report.after = *after;
   report.outcome = carving.reaches ? Outcome::stands : Outcome::best_effort;
   constexpr std::array<const char*, 3> aims{"least", "light", "stable"};
-  report.carving = CarvingFigures{aims[static_cast<int>(options.aim)], input.moments.volume_mm3 - carving.body.volume_mm3,
-                                  std::atan(carving.bound_t), std::atan(carving.bound_t) - std::atan(carving.t),
-                                  static_cast<std::size_t>(carving.planes)};
+  report.carving =
+      CarvingFigures{aims[static_cast<int>(options.aim)], input.moments.volume_mm3 - carving.body.volume_mm3,
+                     std::atan(carving.bound_t), std::atan(carving.bound_t) - std::atan(carving.t),
+                     static_cast<std::size_t>(carving.planes)};
   if (run.shell) report.wall = WallFigures{options.wall_mm, run.shell->wall_mm};
   if (!carving.reaches) add_remedies(report, input, problem, options, *after);
   return run;
@@ -245,8 +262,7 @@ Result<Report> measure_output(const TriangleMesh& written, const StandRun& run, 
     for (int corner = 0; corner < 3; ++corner)
       figures.outer_unchanged &= written.vertices[written.triangles[i][corner]] ==
                                  run.shell->mesh.vertices[run.shell->mesh.triangles[i][corner]];
-  if (!solid->solid)
-    return fail(ErrorCode::internal, "the shell is no solid: " + describe(solid->defects));
+  if (!solid->solid) return fail(ErrorCode::internal, "the shell is no solid: " + describe(solid->defects));
   figures.voids = solid->solid->voids();
   report.mesh = figures;
   const auto after = standing_of(written, solid->solid->moments(), options);

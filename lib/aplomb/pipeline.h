@@ -28,7 +28,7 @@ struct InputOptions {
 /// What a file holds, ready to be measured and carved.
 struct Input {
   SolidMesh solid;
-  Moments moments;            ///< of the solid; of the triangles as they came where only_crossings
+  Moments moments;  ///< of the solid; of the triangles as they came where only_crossings
   RepairReport repair;
   std::vector<std::string> notes;  ///< what was odd about the file, and what looks like a mistake
 };
@@ -44,16 +44,16 @@ Result<Input> load_solid(const std::filesystem::path& path, const InputOptions& 
                          const StageViewer& view = {});
 
 struct StandOptions {
-  StandingPose pose;           ///< how it is to stand; its required_tip_rad is what is asked for
-  bool robust = false;         ///< asked of the robust tip angle instead of the nominal one
+  StandingPose pose;    ///< how it is to stand; its required_tip_rad is what is asked for
+  bool robust = false;  ///< asked of the robust tip angle instead of the nominal one
   CarveAim aim = CarveAim::least;
-  double wall_mm = 2;          ///< > 0
+  double wall_mm = 2;              ///< > 0
   std::optional<double> voxel_mm;  ///< none: at least 4 voxels in the wall and about 256 on the diagonal
-  double least_void_mm = 1;    ///< no void narrower, >= 0
+  double least_void_mm = 1;        ///< no void narrower, >= 0
   double least_volume_mm3 = 10;    ///< no void smaller, >= 0
   std::size_t memory_bytes = std::size_t{4} << 30;
   double density_g_per_cm3 = 1.24;  ///< > 0; PLA
-  bool best_effort = false;    ///< make the shell also when it will not stand
+  bool best_effort = false;         ///< make the shell also when it will not stand
 };
 
 /// A sentence that names field, value and range; empty when there is nothing to say.
@@ -63,9 +63,9 @@ std::string find_problem(const StandOptions& options);
 double voxel_mm(const StandOptions& options, const Box3& box);
 
 struct StandRun {
-  std::optional<Shell> shell;  ///< what to print; none when it cannot stand and no best effort was asked for
+  std::optional<Shell> shell;      ///< what to print; none when it cannot stand and no best effort was asked for
   std::optional<Carving> carving;  ///< none when it stands already
-  Report report;               ///< `after` and `mesh` are to be measured on what is written: see measure_output()
+  Report report;                   ///< `after` and `mesh` are to be measured on what is written: see measure_output()
 };
 
 /// Makes a solid stand by carving.

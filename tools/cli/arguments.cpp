@@ -20,8 +20,9 @@ CLI::Option* add_quantity(CLI::App* app, const std::string& flag, Field& field, 
       flag,
       [&field, &units, flag](const std::string& text) {
         const auto value = parse_quantity(text, units);
-        if (!value) throw CLI::ValidationError(flag, fmt::format("'{}' is no number with a unit such as {}{}", text, 10,
-                                                                 units.front().name));
+        if (!value)
+          throw CLI::ValidationError(
+              flag, fmt::format("'{}' is no number with a unit such as {}{}", text, 10, units.front().name));
         field = static_cast<typename std::remove_reference_t<decltype(*std::optional<Field>())>>(*value);
       },
       help);
@@ -34,8 +35,9 @@ CLI::Option* add_quantity(CLI::App* app, const std::string& flag, std::optional<
       flag,
       [&field, &units, flag](const std::string& text) {
         field = parse_quantity(text, units);
-        if (!field) throw CLI::ValidationError(flag, fmt::format("'{}' is no number with a unit such as 10{}", text,
-                                                                 units.front().name));
+        if (!field)
+          throw CLI::ValidationError(
+              flag, fmt::format("'{}' is no number with a unit such as 10{}", text, units.front().name));
       },
       help);
 }
@@ -54,28 +56,29 @@ void add_input_options(CLI::App* app, Arguments& a) {
       "--rotate",
       [&a](const std::string& text) {
         const auto turns = parse_numbers(text);
-        if (!turns || turns->size() != 3) throw CLI::ValidationError("--rotate", "'" + text + "' is not X,Y,Z in degrees");
+        if (!turns || turns->size() != 3)
+          throw CLI::ValidationError("--rotate", "'" + text + "' is not X,Y,Z in degrees");
         const double degree = angles.front().factor;
-        a.input.placement.turns =
-            turns_about_xyz({(*turns)[0] * degree, (*turns)[1] * degree, (*turns)[2] * degree});
+        a.input.placement.turns = turns_about_xyz({(*turns)[0] * degree, (*turns)[1] * degree, (*turns)[2] * degree});
       },
       "turn about the plate's axes, after --up: X,Y,Z in degrees");
   add_quantity(app, "--unit", a.input.placement.unit_mm, lengths, "length of one unit of the file (default 1mm)");
   app->add_option("--scale", a.input.placement.scale, "scale by this factor");
   add_quantity(app, "--height", a.input.placement.height_mm, lengths, "scale to this height, such as 100mm");
   app->add_flag("--repair-force", a.input.repair.insist, "accept a solid of which most had to be made up");
-  app->add_option("--contact", a.contacts,
-                  "what may touch the plate: auto, or points X,Y,Z[,R] in mm with a radius (default 5 % of the height)");
+  app->add_option(
+      "--contact", a.contacts,
+      "what may touch the plate: auto, or points X,Y,Z[,R] in mm with a radius (default 5 % of the height)");
   add_quantity(app, "--contact-height", a.stand.pose.contact_height_mm, lengths,
                "how far above the lowest point still touches (default 0.1mm)");
   add_quantity(app, "--tip", a.stand.pose.required_tip_rad, angles, "tip angle asked for (default 10deg)");
   app->add_flag("--robust", a.stand.robust, "ask it of the robust tip angle");
-  static const std::map<std::string, double> densities{{"pla", 1.24}, {"petg", 1.27}, {"abs", 1.04},  {"asa", 1.07},
+  static const std::map<std::string, double> densities{{"pla", 1.24}, {"petg", 1.27},  {"abs", 1.04}, {"asa", 1.07},
                                                        {"tpu", 1.22}, {"resin", 1.15}, {"pa12", 1.01}};
   app->add_option_function<std::string>(
-      "--material",
-      [&a](const std::string& name) { a.stand.density_g_per_cm3 = densities.at(name); },
-      "pla petg abs asa tpu resin pa12 (default pla)")->check(CLI::IsMember(densities));
+         "--material", [&a](const std::string& name) { a.stand.density_g_per_cm3 = densities.at(name); },
+         "pla petg abs asa tpu resin pa12 (default pla)")
+      ->check(CLI::IsMember(densities));
   app->add_option("--density", a.stand.density_g_per_cm3, "in g/cm3, instead of the material's");
   app->add_option("--report", a.report, "write the report as JSON; - is standard output");
   app->add_option("--threads", a.threads, "at most this many (default: one per core)")->check(CLI::NonNegativeNumber);
@@ -91,8 +94,10 @@ void add_stand_options(CLI::App* app, Arguments& a) {
       ->transform(CLI::CheckedTransformer(aims).description("least|light|stable"));
   static const std::map<std::string, double> walls{{"fdm", 2}, {"sla", 2}, {"powder", 2}, {"binder", 3}};
   app->add_option_function<std::string>(
-      "--process", [&a](const std::string& name) { a.stand.wall_mm = walls.at(name); },
-      "fdm sla powder (wall 2mm) or binder (3mm); --wall overrides")->check(CLI::IsMember(walls))->trigger_on_parse();
+         "--process", [&a](const std::string& name) { a.stand.wall_mm = walls.at(name); },
+         "fdm sla powder (wall 2mm) or binder (3mm); --wall overrides")
+      ->check(CLI::IsMember(walls))
+      ->trigger_on_parse();
   add_quantity(app, "--wall", a.stand.wall_mm, lengths, "least wall between void and outside (default 2mm)");
   add_quantity(app, "--voxel", a.stand.voxel_mm, lengths, "grid spacing (default: 4 in a wall, 256 on the diagonal)");
   add_quantity(app, "--least-void", a.stand.least_void_mm, lengths, "no void narrower than this (default 1mm)");
@@ -104,9 +109,8 @@ void add_stand_options(CLI::App* app, Arguments& a) {
 std::vector<std::pair<std::string, std::string>> flags_given(const CLI::App& app) {
   std::vector<std::pair<std::string, std::string>> given;
   for (const CLI::Option* option : app.get_options())
-    if (option->count() > 0 && option->get_name() != "--help" && option->get_name(true).rfind("--", 0) != std::string::npos)
-      given.emplace_back(option->get_lnames().empty() ? option->get_name() : option->get_lnames().front(),
-                         fmt::format("{}", fmt::join(option->results(), " ")));
+    if (option->count() > 0 && !option->get_lnames().empty())
+      given.emplace_back(option->get_lnames().front(), fmt::format("{}", fmt::join(option->results(), " ")));
   return given;
 }
 
@@ -114,7 +118,8 @@ std::vector<std::pair<std::string, std::string>> flags_given(const CLI::App& app
 
 Parsed parse_arguments(int argc, char** argv) {
   Arguments a;
-  CLI::App app("Aplomb makes 3D prints stand: it carves a void that moves the centre of mass, and measures the result.");
+  CLI::App app(
+      "Aplomb makes 3D prints stand: it carves a void that moves the centre of mass, and measures the result.");
   app.set_version_flag("--version", "aplomb " APLOMB_VERSION);
   app.require_subcommand(1);
   CLI::App* check = app.add_subcommand("check", "say whether a model stands, and by how many degrees");
@@ -130,7 +135,8 @@ Parsed parse_arguments(int argc, char** argv) {
   a.command = stand->parsed() ? Command::stand : Command::check;
   a.given = flags_given(stand->parsed() ? *stand : *check);
   a.input.read.memory_bytes = a.stand.memory_bytes;
-  for (const std::string& problem : {find_problem(a.input.placement), find_problem(a.input.repair), find_problem(a.stand)})
+  for (const std::string& problem :
+       {find_problem(a.input.placement), find_problem(a.input.repair), find_problem(a.stand)})
     if (!problem.empty()) {
       fmt::print(stderr, "aplomb: {}\n", problem);
       return {std::nullopt, usage_exit};

@@ -21,12 +21,18 @@ enum Exit { stands = 0, usage = 1, bad_input = 2, cannot_stand = 3, over_budget 
 
 int exit_code(const Error& error) {
   switch (error.code) {
-    case ErrorCode::invalid_option: return Exit::usage;
-    case ErrorCode::unusable_input: return Exit::bad_input;
-    case ErrorCode::file_system: return Exit::bad_input;
-    case ErrorCode::cancelled: return cancelled_exit;
-    case ErrorCode::over_budget: return Exit::over_budget;
-    default: return Exit::internal;
+    case ErrorCode::invalid_option:
+      return Exit::usage;
+    case ErrorCode::unusable_input:
+      return Exit::bad_input;
+    case ErrorCode::file_system:
+      return Exit::bad_input;
+    case ErrorCode::cancelled:
+      return cancelled_exit;
+    case ErrorCode::over_budget:
+      return Exit::over_budget;
+    default:
+      return Exit::internal;
   }
 }
 
@@ -90,10 +96,10 @@ Result<void> publish(Report& report, const Arguments& a) {
 /// Writes the shell, reads it back and measures what the file holds.
 Result<Report> write_and_measure(const StandRun& made, const Arguments& a, const Job& job) {
   const MeshFormat format = a.output == "-" ? MeshFormat::stl : *format_of(a.output);
-  auto bytes = encode_mesh(made.shell->mesh, format, {.name = a.output.stem().string()}, job.part(0, 0.4));
+  auto bytes = encode_mesh(made.shell->mesh, format, WriteOptions{a.output.stem().string(), {}}, job.part(0, 0.4));
   if (!bytes) return tl::unexpected(bytes.error());
-  const auto back = read_mesh(*bytes, a.output == "-" ? "standard output.stl" : a.output.filename().string(), {},
-                              job.part(0.4, 0.6));
+  const auto back =
+      read_mesh(*bytes, a.output == "-" ? "standard output.stl" : a.output.filename().string(), {}, job.part(0.4, 0.6));
   if (!back) return tl::unexpected(back.error());
   auto report = measure_output(rounded_to_float(back->objects.front().mesh), made, a.stand, job.part(0.6, 1));
   if (!report) return report;

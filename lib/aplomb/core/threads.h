@@ -4,7 +4,8 @@
 
 namespace aplomb {
 
-/// While it lives, at most this many threads work for the library; 0 or fewer: one per core. Results do not depend on it.
+/// While it lives, at most this many threads work for the library; 0 or fewer: one per core. Results do not depend on
+/// it.
 class ThreadLimit {
  public:
   explicit ThreadLimit(int threads);

@@ -20,8 +20,7 @@ TriangleMesh joined(TriangleMesh first, const TriangleMesh& second) {
   const auto shift = static_cast<std::uint32_t>(first.vertices.size());
   first.vertices.insert(first.vertices.end(), second.vertices.begin(), second.vertices.end());
   first.triangles.reserve(first.triangles.size() + second.triangles.size());
-  for (const Triangle& t : second.triangles)
-    first.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
+  for (const Triangle& t : second.triangles) first.triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
   return first;
 }
 
