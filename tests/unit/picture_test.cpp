@@ -1,0 +1,113 @@
+#include "picture.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "aplomb/mesh/mass_properties.h"
+#include "support/shapes.h"
+
+namespace aplomb::picture {
+namespace {
+
+double area_mm2(const std::vector<float>& share, const Rendering& r) {
+  return std::accumulate(share.begin(), share.end(), 0.0) * r.mm_per_pixel * r.mm_per_pixel;
+}
+
+View small_view() {
+  View view;
+  view.width = view.height = 240;
+  view.plate = false;
+  return view;
+}
+
+TEST(Picture, a_sphere_covers_the_area_of_its_great_circle) {
+  Subject subject;
+  subject.mesh = test::sphere({3, 4, 20}, 20, 5);
+  const Rendering r = render(subject, small_view());
+  EXPECT_NEAR(area_mm2(r.figure_share, r) / (std::numbers::pi * 400), 1, 0.01);
+}
+
+TEST(Picture, a_cut_through_a_cube_has_its_area_foreshortened_by_the_view) {
+  Subject subject;
+  subject.mesh = test::box({-10, -10, 0}, {10, 10, 20});
+  View view = small_view();
+  view.cut = Cut{{0, 0, 10}, {0, -1, 0}};
+  for (const double azimuth : {-std::numbers::pi / 2, -1.0}) {
+    view.azimuth_rad = azimuth;
+    view.elevation_rad = 0.3;
+    const double seen = -std::cos(0.3) * std::sin(azimuth);
+    const Rendering r = render(subject, view);
+    EXPECT_NEAR(area_mm2(r.cut_share, r) / (400 * seen), 1, 0.01);
+  }
+}
+
+TEST(Picture, a_void_is_not_filled_by_the_cut) {
+  Subject subject;
+  subject.mesh = test::with_void(test::sphere({0, 0, 20}, 20, 5), test::sphere({0, 0, 20}, 12, 5));
+  View view = small_view();
+  view.azimuth_rad = 0;
+  view.elevation_rad = 0;
+  view.cut = Cut{{0, 0, 20}, {1, 0, 0}};
+  const Rendering r = render(subject, view);
+  EXPECT_NEAR(area_mm2(r.cut_share, r) / (std::numbers::pi * (400 - 144)), 1, 0.01);
+  const auto middle = static_cast<std::size_t>(120 * 240 + 120);
+  EXPECT_EQ(r.cut_share[middle], 0);
+  EXPECT_EQ(r.figure_share[middle], 1);  // the void's far wall
+}
+
+TEST(Picture, bodies_that_overlap_are_cut_as_one) {
+  Subject subject;
+  subject.mesh = joined(test::box({-10, -10, 0}, {4, 10, 20}), test::box({-4, -10, 0}, {10, 10, 20}));
+  View view = small_view();
+  view.azimuth_rad = -std::numbers::pi / 2;
+  view.elevation_rad = 0;
+  view.cut = Cut{{0, 0, 10}, {0, -1, 0}};
+  const Rendering r = render(subject, view);
+  EXPECT_NEAR(area_mm2(r.cut_share, r) / 400, 1, 0.01);
+}
+
+TEST(Picture, a_second_run_draws_the_same_bytes) {
+  Subject subject;
+  subject.mesh = test::cone({0, 0, 0}, 10, 25, 40);
+  View view;
+  view.width = view.height = 80;
+  EXPECT_EQ(render(subject, view).image.rgb, render(subject, view).image.rgb);
+}
+
+TEST(Picture, a_box_topples_onto_its_side_without_changing_shape) {
+  Subject subject;
+  subject.mesh = test::box({0, 0, 0}, {10, 20, 40});
+  const Subject fallen = toppled(subject, {10, 0}, {10, 20});  // the edge at x = 10, the box on its left
+  const Box3 box = bounding_box(fallen.mesh);
+  EXPECT_NEAR(box.min.x, 10, 1e-9);
+  EXPECT_NEAR(box.max.x, 50, 1e-9);
+  EXPECT_NEAR(box.min.z, 0, 1e-9);
+  EXPECT_NEAR(box.max.z, 10, 1e-9);
+  EXPECT_NEAR(moments(fallen.mesh).volume_mm3, 8000, 1e-6);
+}
+
+TEST(Picture, text_leaves_ink_only_near_its_line) {
+  Image image{200, 60, std::vector<std::uint8_t>(200 * 60 * 3, 255)};
+  draw_text(image, 100, 40, 20, "12.5\xC2\xB0", {0, 0, 0});
+  int ink = 0;
+  for (int y = 0; y < 60; ++y) {
+    for (int x = 0; x < 200; ++x) {
+      if (image.rgb[static_cast<std::size_t>(3 * (y * 200 + x))] > 128) continue;
+      ++ink;
+      EXPECT_TRUE(y >= 17 && y <= 43 && x >= 50 && x <= 150) << x << ' ' << y;
+    }
+  }
+  EXPECT_GT(ink, 100);
+}
+
+TEST(Picture, a_folder_that_is_not_there_is_a_file_system_error) {
+  const auto written = write_png("no/such/folder/picture.png", Image{1, 1, {0, 0, 0}});
+  ASSERT_FALSE(written);
+  EXPECT_EQ(written.error().code, ErrorCode::file_system);
+}
+
+}  // namespace
+}  // namespace aplomb::picture

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+
+#include "aplomb/balance/standing.h"
+#include "aplomb/core/error.h"
+#include "aplomb/mesh/triangle_mesh.h"
+#include "picture.h"
+
+namespace aplomb::picture {
+
+/// A figure with what is measured of it.
+struct Figure {
+  TriangleMesh mesh;  ///< z up, its lowest point on z = 0
+  Standing standing;
+};
+
+/// Turns `up` upward, puts the lowest point on the plate and measures at density 1.
+/// \return unusable_input for a mesh without positive volume; what measure_standing() returns.
+Result<Figure> stood_up(TriangleMesh mesh, Vec3 up, double contact_height_mm);
+
+/// With its support polygon and centre of mass.
+Subject drawn(const Figure& figure);
+
+/// The figure as its tip angle says: upright when it stands, fallen over its weak edge when it does not.
+Subject as_it_comes_to_rest(const Figure& figure);
+
+/// From where a fall is seen from the side, going to the right, a little from the front.
+double azimuth_for_rad(Vec3 heading);
+
+/// The vertical plane through the centre of mass along `heading`, opened towards the viewer.
+Cut section_along(const Figure& figure, Vec3 heading, double azimuth_rad);
+
+/// "falls" or "stands to 12.3 degrees", with the degree sign.
+std::string verdict(const Figure& figure);
+
+}  // namespace aplomb::picture
