@@ -1,4 +1,6 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <map>
 #include <numbers>
@@ -70,14 +72,16 @@ Image before_and_after(const Request& request, const Figure& before, const Figur
   view.height = view.height * 5 / 6;
   const Subject fallen = as_it_comes_to_rest(before);
   const Subject standing = as_it_comes_to_rest(after);
-  Box3 frame = bounding_box(standing.mesh);
-  const Box3 lying = bounding_box(fallen.mesh);
-  const double spare = 0.5 * std::max(0.0, norm(lying.size()) - norm(frame.size()));
-  frame.min = frame.min - Vec3{spare, spare, 0};
-  frame.max = frame.max + Vec3{spare, spare, 0};
-  view.frame_mm = lying;
+  const Box3 upright = bounding_box(standing.mesh), lying = bounding_box(fallen.mesh);
+  Vec3 size;
+  for (int axis = 0; axis < 3; ++axis) size[axis] = std::max(upright.size()[axis], lying.size()[axis]);
+  const auto frame = [&](const Box3& box) {
+    const Vec3 low{0.5 * (box.min.x + box.max.x - size.x), 0.5 * (box.min.y + box.max.y - size.y), 0};
+    return Box3{low, low + size};
+  };
+  view.frame_mm = frame(lying);
   const Image first = render(fallen, view).image;
-  view.frame_mm = frame;
+  view.frame_mm = frame(upright);
   View opened = view;
   opened.cut = section_along(after, heading, view.azimuth_rad);
   const Image second = render(standing, opened).image;
