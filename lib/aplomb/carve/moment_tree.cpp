@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "aplomb/mesh/clipped_tetrahedron.h"
+
 namespace aplomb {
 namespace {
 
@@ -15,10 +17,26 @@ Moments uniform_cube(Vec3 origin, double size) {
 /// A form over the unit cube, s(u) = constant + slope . u, positive where the cube is counted.
 struct UnitCut {
   double constant;
-  Vec3 slope;  // no component near zero
+  Vec3 slope;
 
-  /// Volume of { s > 0 } and its first moments in the unit cube.
-  Moments moments() const {
+  /// Without a component near zero: the antidifference divides by their product.
+  bool is_oblique() const {
+    const auto [least, greatest] = std::minmax({std::abs(slope.x), std::abs(slope.y), std::abs(slope.z)});
+    return least >= 1e-2 * greatest;
+  }
+
+  /// Of { s > 0 } in the unit cube.
+  Moments moments() const { return is_oblique() ? antidifference() : by_tetrahedra(); }
+
+ private:
+  Moments by_tetrahedra() const {
+    std::array<double, 8> kept{};
+    for (int c = 0; c < 8; ++c)
+      kept[c] = -constant - dot(slope, Vec3{double(c & 1), double(c >> 1 & 1), double(c >> 2 & 1)});
+    return negative_part_of_unit_cube(kept);
+  }
+
+  Moments antidifference() const {
     double volume = 0;
     Vec3 first;
     for (int c = 0; c < 8; ++c) {
@@ -37,16 +55,12 @@ struct UnitCut {
 }  // namespace
 
 Moments cut_cube(const AffineForm& form, Vec3 origin_mm, double size_mm) {
-  const double steepest = std::max({std::abs(form.gradient.x), std::abs(form.gradient.y), std::abs(form.gradient.z)});
   const double middle = form(origin_mm + 0.5 * size_mm * Vec3{1, 1, 1});
-  if (steepest == 0) return middle > 0 ? Moments{} : uniform_cube(origin_mm, size_mm);
-  UnitCut cut{};
-  for (int axis = 0; axis < 3; ++axis) {
-    const double slope = -form.gradient[axis];
-    const double least = 1e-3 * steepest;
-    cut.slope[axis] = size_mm * (std::abs(slope) >= least ? slope : std::copysign(least, slope));
-  }
-  cut.constant = -middle - 0.5 * (cut.slope.x + cut.slope.y + cut.slope.z);
+  const Vec3 g = form.gradient;
+  if (std::abs(middle) >= 0.5 * size_mm * (std::abs(g.x) + std::abs(g.y) + std::abs(g.z)))
+    return middle > 0 ? Moments{} : uniform_cube(origin_mm, size_mm);
+  const Vec3 slope = -size_mm * g;
+  const UnitCut cut{-middle - 0.5 * (slope.x + slope.y + slope.z), slope};
   const Moments unit = cut.moments();
   const double volume = size_mm * size_mm * size_mm;
   return {volume * unit.volume_mm3, volume * (unit.volume_mm3 * origin_mm + size_mm * unit.first_mm4)};

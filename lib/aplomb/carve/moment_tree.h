@@ -15,8 +15,8 @@ namespace aplomb {
 ///
 ///     V = sum over corners c of (-1)^|c| s(c)_+^3 / 6 / (g_1 g_2 g_3),     g = -gradient,
 ///
-/// and the first moments come by parts (Scardovelli and Zaleski 2000 for the volume). Components of g under 1e-3 of
-/// the largest are raised to it about the cube's centre: an error of second order.
+/// and the first moments come by parts (Scardovelli and Zaleski 2000 for the volume). Where a component of g
+/// is under 1e-2 of the largest, which would cost digits, the cube is clipped as six tetrahedra.
 Moments cut_cube(const AffineForm& form, Vec3 origin_mm, double size_mm);
 
 /// Moments of a carvable region, summed up a tree of boxes, so that those of its part on one side of a plane cost the

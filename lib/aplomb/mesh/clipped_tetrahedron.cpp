@@ -31,4 +31,22 @@ Moments negative_part(const std::array<Vec3, 4>& corners, const std::array<doubl
   return whole(corner(0), p, q, s) + whole(corner(0), p, r, s) + whole(corner(0), corner(1), r, s);
 }
 
+Moments negative_part_of_unit_cube(const std::array<double, 8>& values) {
+  // A tetrahedron per order of the axes, each from corner 0 to corner 7.
+  static constexpr std::array<std::array<int, 4>, 6> tetrahedra{
+      {{0, 1, 3, 7}, {0, 1, 5, 7}, {0, 2, 3, 7}, {0, 2, 6, 7}, {0, 4, 5, 7}, {0, 4, 6, 7}}};
+  Moments sum;
+  for (const auto& tetrahedron : tetrahedra) {
+    std::array<Vec3, 4> corners;
+    std::array<double, 4> at_corners;
+    for (int i = 0; i < 4; ++i) {
+      const int c = tetrahedron[i];
+      corners[i] = {double(c & 1), double(c >> 1 & 1), double(c >> 2 & 1)};
+      at_corners[i] = values[c];
+    }
+    sum += negative_part(corners, at_corners);
+  }
+  return sum;
+}
+
 }  // namespace aplomb

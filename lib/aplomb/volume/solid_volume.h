@@ -32,6 +32,8 @@ std::string find_problem(const VolumeOptions& options);
 ///     phi(x) = W - d(x)  mm,    W = sqrt(wall^2 + 3/4 voxel^2) + slack,    d = distance to the surface, inside
 ///     positive
 ///
+/// (a solid's own voids are outside; a line from each to the outside counts as surface, so that its wall stays held)
+///
 /// at lattice points: carvable where negative. Exact (to float32) at every corner of a cell in which phi changes sign
 /// and down to a depth of least_void / 2 below; clamped beyond. The distance of depths is exact everywhere: -phi is the
 /// distance to where carving must end.

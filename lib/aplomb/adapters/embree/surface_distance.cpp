@@ -170,6 +170,11 @@ SurfaceDistance::Closest SurfaceDistance::closest(Vec3 point, std::uint32_t hint
   return {std::sqrt(search.squared), search.triangle};
 }
 
+Vec3 SurfaceDistance::closest_point(Vec3 point, std::uint32_t triangle) const {
+  const Corners t = impl_->corners(triangle);
+  return t.at(closest_barycentric(point, t.a, t.b, t.c));
+}
+
 bool SurfaceDistance::inside(Vec3 point, const Closest& nearest) const {
   const Triangle& t = impl_->mesh.triangles[nearest.triangle];
   const Corners corners = impl_->corners(nearest.triangle);

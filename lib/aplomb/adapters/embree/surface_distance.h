@@ -28,6 +28,9 @@ class SurfaceDistance {
   /// the distance. Safe to call from several threads.
   Closest closest(Vec3 point_mm, std::uint32_t hint = no_triangle) const;
 
+  /// The point of a triangle that is closest to a point.
+  Vec3 closest_point(Vec3 point_mm, std::uint32_t triangle) const;
+
   /// Whether a point off the surface is inside, by the angle-weighted pseudonormal at its closest point
   /// (Baerentzen and Aanaes 2005). \pre The mesh is closed and oriented, without self-intersection;
   /// `nearest` was found for this point.

@@ -34,24 +34,6 @@ Blocks field_blocks(const FieldTree& field) {
   return blocks;
 }
 
-Moments cell_moments(const std::array<double, 8>& values) {
-  // Kuhn's split: a tetrahedron per order of the axes, each from corner 0 to corner 7.
-  static constexpr std::array<std::array<int, 4>, 6> tetrahedra{
-      {{0, 1, 3, 7}, {0, 1, 5, 7}, {0, 2, 3, 7}, {0, 2, 6, 7}, {0, 4, 5, 7}, {0, 4, 6, 7}}};
-  Moments sum;
-  for (const auto& tetrahedron : tetrahedra) {
-    std::array<Vec3, 4> corners;
-    std::array<double, 4> at_corners;
-    for (int i = 0; i < 4; ++i) {
-      const int c = tetrahedron[i];
-      corners[i] = {double(c & 1), double(c >> 1 & 1), double(c >> 2 & 1)};
-      at_corners[i] = values[c];
-    }
-    sum += negative_part(corners, at_corners);
-  }
-  return sum;
-}
-
 namespace {
 
 /// Moments of a block in units of the lattice.
@@ -65,7 +47,7 @@ Moments block_moments(const FieldReader& reader, const Coord& origin) {
         const auto negative = std::ranges::count_if(values, [](double v) { return v < 0; });
         if (negative == 0) continue;
         const Vec3 least{double(origin[0] + i), double(origin[1] + j), double(origin[2] + k)};
-        const Moments cell = negative == 8 ? Moments{1, {0.5, 0.5, 0.5}} : cell_moments(values);
+        const Moments cell = negative == 8 ? Moments{1, {0.5, 0.5, 0.5}} : negative_part_of_unit_cube(values);
         sum += {cell.volume_mm3, cell.first_mm4 + cell.volume_mm3 * least};
       }
   return sum;

@@ -16,9 +16,6 @@ struct Blocks {
 };
 Blocks field_blocks(const FieldTree& field);
 
-/// Moments of the negative part of one cell in units of the lattice, relative to the cell's least corner.
-Moments cell_moments(const std::array<double, 8>& values);
-
 /// The eight corner values of a cell of a block, corner c at (c & 1, c >> 1 & 1, c >> 2 & 1).
 std::array<double, 8> cell_values(const CornerValues& corners, int i, int j, int k);
 

@@ -8,7 +8,9 @@
 
 #include "aplomb/adapters/embree/surface_distance.h"
 #include "aplomb/adapters/openvdb/field_operations.h"
+#include "aplomb/mesh/clipped_tetrahedron.h"
 #include "aplomb/volume/carvable_blocks.h"
+#include "aplomb/volume/void_anchors.h"
 
 namespace aplomb {
 
@@ -20,9 +22,26 @@ using openvdb::Coord;
 namespace {
 
 constexpr int root_size = 32;          // lattice points per side of the octree's roots
-constexpr double surface_gap = 0.05;   // voxels: no field value is nearer to zero
 constexpr double exact_reach = 1.75;   // voxels: more than the diagonal of a cell
 constexpr double opening_slack = 0.5;  // voxels
+
+/// What carving keeps away from: the surface, and the lines that hold the voids the solid already has.
+class Kept {
+ public:
+  explicit Kept(const SolidMesh& solid) : surface_(solid.mesh()), anchors_(void_anchors(solid)) {}
+
+  SurfaceDistance::Closest closest(Vec3 point, std::uint32_t hint) const {
+    auto nearest = surface_.closest(point, hint);
+    for (const VoidAnchor& anchor : anchors_)
+      nearest.distance_mm = std::min(nearest.distance_mm, anchor.distance_mm(point));
+    return nearest;
+  }
+  bool inside(Vec3 point, const SurfaceDistance::Closest& nearest) const { return surface_.inside(point, nearest); }
+
+ private:
+  SurfaceDistance surface_;
+  std::vector<VoidAnchor> anchors_;
+};
 
 /// The octree's descent from one root: leaves and whole inside blocks of the field.
 class Sampler {
@@ -32,8 +51,8 @@ class Sampler {
     std::unique_ptr<FieldLeaf> leaf;  // none: inside altogether
   };
 
-  Sampler(const SurfaceDistance& surface, const VoxelFrame& frame, double depth_mm, double background_mm)
-      : surface_(surface), frame_(frame), depth_mm_(depth_mm), background_mm_(background_mm) {}
+  Sampler(const Kept& kept, const VoxelFrame& frame, double depth_mm, double background_mm)
+      : kept_(kept), frame_(frame), depth_mm_(depth_mm), background_mm_(background_mm) {}
 
   std::vector<Block> sample(const Coord& root) {
     descend(root, root_size, SurfaceDistance::no_triangle);
@@ -47,11 +66,11 @@ class Sampler {
   Decision decide(const Coord& origin, int size, SurfaceDistance::Closest& nearest, std::uint32_t hint) const {
     const double h = frame_.voxel_mm, half = 0.5 * (size - 1);
     const Vec3 centre = frame_.position_mm({origin[0], origin[1], origin[2]}) + h * half * Vec3{1, 1, 1};
-    nearest = surface_.closest(centre, hint);
+    nearest = kept_.closest(centre, hint);
     const double reach = std::sqrt(3.0) * half * h, d = nearest.distance_mm;
     if (d + reach <= depth_mm_ - exact_reach * h) return Decision::outside;
     if (d <= reach) return Decision::mixed;
-    if (!surface_.inside(centre, nearest)) return Decision::outside;
+    if (!kept_.inside(centre, nearest)) return Decision::outside;
     return d - reach >= depth_mm_ + background_mm_ ? Decision::inside : Decision::mixed;
   }
 
@@ -86,7 +105,7 @@ class Sampler {
 
   double signed_depth(const Coord& at, const SurfaceDistance::Closest& nearest) const {
     const Vec3 point = frame_.position_mm({at[0], at[1], at[2]});
-    return surface_.inside(point, nearest) ? nearest.distance_mm : -nearest.distance_mm;
+    return kept_.inside(point, nearest) ? nearest.distance_mm : -nearest.distance_mm;
   }
 
   void set(const Coord& at, double value) {
@@ -103,7 +122,7 @@ class Sampler {
     return origin.offsetBy(half * (c & 1), half * (c >> 1 & 1), half * (c >> 2 & 1));
   }
 
-  const SurfaceDistance& surface_;
+  const Kept& kept_;
   const VoxelFrame frame_;
   const double depth_mm_;
   const double background_mm_;
@@ -124,7 +143,7 @@ std::vector<Coord> root_origins(const Box3& box, const VoxelFrame& frame) {
 
 Result<openvdb::FloatGrid::Ptr> sample_field(const SolidMesh& solid, const VoxelFrame& frame, double depth_mm,
                                              double background_mm, const Job& job) {
-  const SurfaceDistance surface(solid.mesh());
+  const Kept kept(solid);
   const std::vector<Coord> roots = root_origins(solid.box(), frame);
   auto grid = openvdb::FloatGrid::create(static_cast<float>(background_mm));
   constexpr std::size_t batch = 32;  // between two looks at the job
@@ -132,7 +151,7 @@ Result<openvdb::FloatGrid::Ptr> sample_field(const SolidMesh& solid, const Voxel
     if (!job.report(double(begin) / double(roots.size()), "voxelize")) return cancelled();
     std::vector<std::vector<Sampler::Block>> parts(std::min(batch, roots.size() - begin));
     tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
-      parts[i] = Sampler(surface, frame, depth_mm, background_mm).sample(roots[begin + i]);
+      parts[i] = Sampler(kept, frame, depth_mm, background_mm).sample(roots[begin + i]);
     });
     for (auto& blocks : parts)
       for (Sampler::Block& block : blocks) {
@@ -218,7 +237,7 @@ std::vector<CarvableBlock> carvable_blocks(const SolidVolume& volume) {
       const auto negative = std::ranges::count_if(values, [](double v) { return v < 0; });
       blocks[n].shares[cell] = negative == 0   ? 0.0f
                                : negative == 8 ? 1.0f
-                                               : static_cast<float>(adapters::cell_moments(values).volume_mm3);
+                                               : static_cast<float>(negative_part_of_unit_cube(values).volume_mm3);
     }
   });
   std::erase_if(blocks, [](const CarvableBlock& block) {
