@@ -61,6 +61,7 @@ class Carver {
       result = cut(*plane, carving);
       const double missing = options_.required_t - carving.t;
       if (std::abs(missing) <= t_tolerance || (missing > 0 && asked >= stable.t)) break;
+      if (missing < 0 && plane->t > asked + t_tolerance) break;  // the angle is no limit
       asked += missing;
     }
     return std::move(*result);

@@ -100,6 +100,12 @@ Result<PlaneChoice> PlaneSearch::most_stable(double tolerance, const Job& job) {
     t = solution->value >= 0 && std::isfinite(promised) ? std::max(t, promised) : t + solution->value;
     t = std::min(t, best.bound);
   }
+  if (best.bound - best.t <= tolerance || !(t > best.t)) return best;
+  // Mixtures alone reach it: the form is nowhere but zero (a figure that hangs and is balanced already by many bodies).
+  // Of these bodies the one with the most volume is a half-space again.
+  const auto balanced = extreme_volume(VolumeAim::most, t - tolerance, best, job);
+  if (!balanced) return balanced;
+  if (balanced->t > best.t) best = {balanced->kept, balanced->body, balanced->t, best.bound};
   return best;
 }
 
