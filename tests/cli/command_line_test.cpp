@@ -1,0 +1,160 @@
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <sstream>
+
+#include "aplomb/io/read_mesh.h"
+#include "aplomb/io/write_mesh.h"
+#include "support/shapes.h"
+
+// The program itself, run as a person or a script would.
+
+namespace aplomb {
+namespace {
+
+namespace fs = std::filesystem;
+
+class CommandLine : public ::testing::Test {
+ protected:
+  CommandLine() : folder_(fs::temp_directory_path() / ("aplomb_cli_" + std::to_string(getpid()))) {
+    fs::create_directories(folder_);
+  }
+  ~CommandLine() override { fs::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+  int run(const std::string& arguments) const {
+    const std::string command =
+        std::string(APLOMB_CLI) + " " + arguments + " >" + path("stdout") + " 2>" + path("stderr") + " </dev/null";
+    const int status = std::system(command.c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+
+  std::string text_of(const std::string& name) const {
+    std::ifstream file(path(name), std::ios::binary);
+    return (std::ostringstream() << file.rdbuf()).str();
+  }
+
+  std::string write(const std::string& name, const TriangleMesh& mesh) const {
+    EXPECT_TRUE(write_mesh(path(name), mesh).has_value());
+    return path(name);
+  }
+
+  /// Leans so far that its centre of mass lies 1 mm beyond its base.
+  std::string toppling() const { return write("leaning.stl", test::leaning_prism(28, 28, 60, 30)); }
+
+  fs::path folder_;
+};
+
+TEST_F(CommandLine, UsageErrorsEndInOne) {
+  EXPECT_EQ(run(""), 1);
+  EXPECT_EQ(run("stand"), 1);
+  EXPECT_EQ(run("check " + toppling() + " --tip 95deg"), 1);
+  EXPECT_EQ(run("check " + toppling() + " --contact 1,2"), 1);
+  EXPECT_EQ(run("stand " + toppling() + " -o " + path("out.xyz")), 1);
+  EXPECT_FALSE(fs::exists(path("out.xyz")));
+}
+
+TEST_F(CommandLine, InputThatCannotBeUsedEndsInTwoWithOneSentence) {
+  std::ofstream(path("bad.stl")) << "this is no mesh";
+  EXPECT_EQ(run("stand " + path("bad.stl") + " -o " + path("out.3mf")), 2);
+  EXPECT_FALSE(fs::exists(path("out.3mf")));
+  const std::string said = text_of("stderr");
+  EXPECT_NE(said.find("bad.stl"), std::string::npos);
+  EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1);
+  EXPECT_EQ(run("check " + path("missing.stl")), 2);
+}
+
+TEST_F(CommandLine, CheckSaysOnStandardOutputWhetherItStands) {
+  EXPECT_EQ(run("check " + write("box.stl", test::box({0, 0, 0}, {20, 20, 20}))), 0);
+  EXPECT_EQ(text_of("stdout").rfind("Stands", 0), 0u) << text_of("stdout");
+  EXPECT_NE(text_of("stdout").find("45.0 degrees"), std::string::npos);
+  EXPECT_EQ(run("check " + toppling()), 3);
+  EXPECT_EQ(text_of("stdout").rfind("Falls", 0), 0u) << text_of("stdout");
+}
+
+TEST_F(CommandLine, WhatStandsAlreadyIsCopiedUnchanged) {
+  const TriangleMesh box = test::box({1, 2, 3}, {21, 22, 23});
+  EXPECT_EQ(run("stand " + write("box.stl", box) + " -o " + path("out.stl") + " --report " + path("r.json")), 0);
+  EXPECT_EQ(text_of("out.stl").substr(80), text_of("box.stl").substr(80));
+  EXPECT_EQ(nlohmann::json::parse(text_of("r.json")).at("outcome"), "already_stands");
+}
+
+TEST_F(CommandLine, ATopplingModelIsMadeToStandAtTheAngleAskedForAndNoMore) {
+  EXPECT_EQ(run("stand " + toppling() + " --tip 4deg -o " + path("out.3mf") + " --report " + path("r.json")), 0)
+      << text_of("stderr");
+  const auto report = nlohmann::json::parse(text_of("r.json"));
+  EXPECT_EQ(report.at("outcome"), "stands");
+  EXPECT_LT(report.at("before").at("tip_deg").get<double>(), 0);
+  EXPECT_NEAR(report.at("after").at("tip_deg").get<double>(), 4, 0.01);
+  EXPECT_GE(report.at("after").at("tip_deg").get<double>(), 4);
+  EXPECT_GE(report.at("wall_mm").at("measured").get<double>(), 2);
+  EXPECT_EQ(report.at("mesh").at("outer_unchanged"), true);
+  EXPECT_EQ(report.at("mesh").at("self_intersections"), 0);
+  EXPECT_EQ(report.at("options").at("tip"), "4deg");
+  EXPECT_EQ(run("check " + path("out.3mf") + " --tip 4deg"), 0) << text_of("stdout");
+}
+
+TEST_F(CommandLine, WhatCannotStandEndsInThreeAndWritesOnlyABestEffort) {
+  const std::string model = toppling();
+  EXPECT_EQ(run("stand " + model + " --tip 60deg -o " + path("out.3mf")), 3);
+  EXPECT_FALSE(fs::exists(path("out.3mf")));
+  EXPECT_NE(text_of("stderr").find("pedestal"), std::string::npos);
+  EXPECT_EQ(run("stand " + model + " --tip 60deg --best-effort -o " + path("out.3mf")), 3);
+  EXPECT_TRUE(fs::exists(path("out.3mf")));
+}
+
+TEST_F(CommandLine, AGridOverTheMemoryBudgetIsRefusedWithFive) {
+  EXPECT_EQ(run("stand " + toppling() + " --voxel 0.01mm --least-void 0.1mm --memory 100MB -o " + path("out.3mf")), 5);
+  EXPECT_NE(text_of("stderr").find("voxel"), std::string::npos);
+  EXPECT_FALSE(fs::exists(path("out.3mf")));
+}
+
+TEST_F(CommandLine, APipeCarriesNothingButTheMesh) {
+  EXPECT_EQ(run("stand " + toppling() + " --tip 4deg -o -"), 0);
+  const std::string bytes = text_of("stdout");
+  const auto mesh = read_mesh(std::as_bytes(std::span(bytes)), "pipe.stl");
+  ASSERT_TRUE(mesh.has_value()) << mesh.error().message;
+  EXPECT_EQ(mesh->format, "binary STL");
+}
+
+TEST_F(CommandLine, SeveralPrintsAreNamedAndOneIsChosen) {
+  const TriangleMesh two = joined(test::box({0, 0, 0}, {10, 10, 10}), test::box({20, 0, 0}, {24, 10, 40}));
+  const std::string model = write("two.stl", two);
+  EXPECT_EQ(run("check " + model), 2);
+  EXPECT_NE(text_of("stderr").find("--object"), std::string::npos);
+  EXPECT_EQ(run("check --object 1 " + model), 0);
+  EXPECT_EQ(run("check --object 2 " + model), 3);  // 4 wide and 40 high: 5.7 degrees
+}
+
+TEST_F(CommandLine, CtrlCEndsWithinTwoHundredMillisecondsWithFourAndNoFile) {
+  const std::string model = toppling(), output = path("out.3mf");
+  const pid_t child = fork();
+  if (child == 0) {
+    execl(APLOMB_CLI, APLOMB_CLI, "stand", model.c_str(), "--voxel", "0.05mm", "--memory", "20GB", "-q", "-o",
+          output.c_str(), nullptr);
+    _exit(127);
+  }
+  usleep(300'000);
+  const auto start = std::chrono::steady_clock::now();
+  kill(child, SIGINT);
+  int status = 0;
+  waitpid(child, &status, 0);
+  const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - start;
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 4);
+  EXPECT_LT(waited.count(), 0.4);  // 150 ms is the program's own limit; the rest is the machine's
+  for (const auto& entry : fs::directory_iterator(folder_))
+    EXPECT_EQ(entry.path().filename().string().find("out"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace aplomb
