@@ -92,13 +92,13 @@ void add_stand_options(CLI::App* app, Arguments& a) {
       {"least", CarveAim::least}, {"light", CarveAim::light}, {"stable", CarveAim::stable}};
   app->add_option("--aim", a.stand.aim, "least: remove least; light: remove most; stable: the largest tip angle")
       ->transform(CLI::CheckedTransformer(aims).description("least|light|stable"));
-  static const std::map<std::string, double> walls{{"fdm", 2}, {"sla", 2}, {"powder", 2}, {"binder", 3}};
+  static const std::map<std::string, double> walls{{"fdm", 1.6}, {"sla", 2}, {"powder", 1.5}, {"binder", 3}};
   app->add_option_function<std::string>(
          "--process", [&a](const std::string& name) { a.stand.wall_mm = walls.at(name); },
-         "fdm sla powder (wall 2mm) or binder (3mm); --wall overrides")
+         "fdm (wall 1.6mm), sla (2mm), powder (1.5mm) or binder (3mm); --wall overrides (default fdm)")
       ->check(CLI::IsMember(walls))
       ->trigger_on_parse();
-  add_quantity(app, "--wall", a.stand.wall_mm, lengths, "least wall between void and outside (default 2mm)");
+  add_quantity(app, "--wall", a.stand.wall_mm, lengths, "least wall between void and outside (default: the process's)");
   add_quantity(app, "--voxel", a.stand.voxel_mm, lengths, "grid spacing (default: 4 in a wall, 256 on the diagonal)");
   add_quantity(app, "--least-void", a.stand.least_void_mm, lengths, "no void narrower than this (default 1mm)");
   app->add_option("--least-volume", a.stand.least_volume_mm3, "no void smaller than this, in mm3 (default 10)");

@@ -109,19 +109,18 @@ Result<Report> write_and_measure(const StandRun& made, const Arguments& a, const
 }
 
 int run_stand(const Arguments& a, const Input& input, double load_seconds, const Job& job) {
-  using clock = std::chrono::steady_clock;
   auto made = stand(input, a.stand, job.part(0, 0.8), dump_into(a.dump));
   if (!made) return report_error(made.error());
   Report report = made->report;
   const bool writes = made->shell && (report.outcome != Outcome::best_effort || a.stand.best_effort);
-  const auto before_writing = clock::now();
+  const auto before_writing = std::chrono::steady_clock::now();
   if (writes) {
     auto measured = write_and_measure(*made, a, job.part(0.8, 1));
     if (!measured) return report_error(measured.error());
     report = std::move(*measured);
   }
   report.stage_seconds.insert(report.stage_seconds.begin(), {"load", load_seconds});
-  report.stage_seconds.emplace_back("write", std::chrono::duration<double>(clock::now() - before_writing).count());
+  report.stage_seconds.emplace_back("write", std::chrono::duration<double>(std::chrono::steady_clock::now() - before_writing).count());
   if (const auto published = publish(report, a); !published) return report_error(published.error());
   return report.outcome == Outcome::best_effort ? Exit::cannot_stand : Exit::stands;
 }
