@@ -11,7 +11,7 @@ namespace aplomb {
 
 struct ShellOptions {
   double wall_mm = 2;              ///< what the shell must keep, > 0; the void was carved for it
-  double deviation_voxels = 0.05;  ///< how far simplifying may move the inner surface, in [0, 1]; 0 does not simplify
+  double deviation_voxels = 0.04;  ///< how far simplifying may move the inner surface, in [0, 1]; 0 does not simplify
 };
 
 /// A sentence that names field, value and range; empty when there is nothing to say.

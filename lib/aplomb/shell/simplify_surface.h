@@ -13,14 +13,14 @@ namespace aplomb {
 /// Says which triangles of a simplified surface will not do.
 using FindSpoilt = std::function<Result<std::vector<std::uint32_t>>(const TriangleMesh& simplified, const Job& job)>;
 
-/// The same surface with fewer triangles, moved by no more than about `deviation_mm`; its vertices are some of the
-/// given ones. Where collapsing edges made it non-manifold, degenerate, crossing, or otherwise spoilt, the given
-/// triangles round there stay and it is done again, at last with none collapsed.
+/// The same surface with fewer triangles: simplify(), done again with the given vertices kept round the triangles that
+/// cross others or are otherwise spoilt. Where that does not end in ten rounds, the given surface.
 ///
 /// \pre  `fine` is closed, 2-manifold and does not cross itself; coordinates are float32 values.
-/// \post So is the result; it is not spoilt unless it is `fine`.
+/// \post So is the result; it is not spoilt unless it is `fine`. No vertex of `fine` is farther from it than
+///       deviation_mm, and its vertices are some of fine's. With deviation_mm 0 it is `fine`.
 /// \return cancelled; what find_spoilt returns.
-/// \par Cost  0.3 s of CPU a round for 340k triangles; 2 to 4 rounds.
+/// \par Cost  0.5 s of CPU a round for 340k triangles, 3 s for 2 million; nearly always one round.
 Result<TriangleMesh> simplified_surface(const TriangleMesh& fine, double deviation_mm, const FindSpoilt& find_spoilt,
                                         const Job& job = {});
 

@@ -28,6 +28,11 @@ double squared_enclosing_radius(Vec3 a, Vec3 b, Vec3 c) {
   return ab * bc * ca / (4 * squared_norm(cross(b - a, c - a)));
 }
 
+/// Larger triangles are split before the outer triangles near them are looked at, in walls.
+constexpr double largest_radius = 1;
+/// What rounding may add to the distance of two triangles.
+constexpr double rounding = 1e-9;
+
 class WallSearch {
  public:
   WallSearch(const SurfaceDistance& outer, double good_enough_mm) : outer_(outer), good_enough_(good_enough_mm) {}
@@ -35,9 +40,12 @@ class WallSearch {
   /// A lower bound on the triangle's distance; exact to the tolerance where it is below good_enough.
   double least(const Sample& a, const Sample& b, const Sample& c) const {
     const double nearest = std::min({a.nearest.distance_mm, b.nearest.distance_mm, c.nearest.distance_mm});
-    const double squared = nearest * nearest - squared_enclosing_radius(a.point, b.point, c.point);
+    const double squared_radius = squared_enclosing_radius(a.point, b.point, c.point);
+    const double squared = nearest * nearest - squared_radius;
     const double bound = squared > 0 ? std::sqrt(squared) : 0;
-    if (bound >= good_enough_ || bound >= (1 - 1e-4) * nearest) return bound;
+    if (bound >= good_enough_) return bound;
+    if (squared_radius <= largest_radius * largest_radius * good_enough_ * good_enough_)
+      return (1 - rounding) * outer_.from_triangle(a.point, b.point, c.point, good_enough_ / (1 - 2 * rounding));
     const Sample ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
     return std::min({least(a, ab, ca), least(ab, b, bc), least(ca, bc, c), least(ab, bc, ca)});
   }

@@ -16,11 +16,12 @@ struct WallMeasure {
 
 /// The least distance between two surfaces, never more than the true one and less by at most 1e-4 of it.
 /// Works on triangles, not on samples: on a triangle with corners at distances d_i and an enclosing circle of
-/// radius R, d(x)^2 >= min d_i^2 - R^2, for d^2 - |x|^2 is concave; triangles for which that is not enough are split.
+/// radius R, d(x)^2 >= min d_i^2 - R^2, for d^2 - |x|^2 is concave. Where that is not enough, triangles with R above
+/// the wall are split, and the others are measured against every outer triangle near them.
 ///
-/// \pre The surfaces do not touch; coordinates are float32 values.
+/// \pre No triangle is degenerate; coordinates are float32 values. Surfaces that meet are 0 apart.
 /// \return cancelled.
-/// \par Cost  one distance per vertex of `inner` and one per split edge, shared by the threads allowed.
+/// \par Cost  one distance per vertex of `inner`, and about one more per triangle; shared by the threads allowed.
 Result<WallMeasure> measure_wall(const TriangleMesh& inner, const TriangleMesh& outer, double required_mm,
                                  const Job& job = {});
 

@@ -8,6 +8,8 @@
 #include <numeric>
 #include <vector>
 
+#include "aplomb/mesh/detail/triangle_distance.h"
+
 namespace aplomb::adapters {
 namespace {
 
@@ -20,32 +22,26 @@ struct SceneRelease {
 using Device = std::unique_ptr<std::remove_pointer_t<RTCDevice>, DeviceRelease>;
 using Scene = std::unique_ptr<std::remove_pointer_t<RTCScene>, SceneRelease>;
 
-/// Barycentric coordinates of the point of triangle (a, b, c) closest to p: exact zeros name the feature.
-Vec3 closest_barycentric(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
-  const Vec3 ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
-  const double d1 = dot(ab, ap), d2 = dot(ac, ap);
-  if (d1 <= 0 && d2 <= 0) return {1, 0, 0};
-  const double d3 = dot(ab, bp), d4 = dot(ac, bp);
-  if (d3 >= 0 && d4 <= d3) return {0, 1, 0};
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return {1 - d1 / (d1 - d3), d1 / (d1 - d3), 0};
-  const double d5 = dot(ab, cp), d6 = dot(ac, cp);
-  if (d6 >= 0 && d5 <= d6) return {0, 0, 1};
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return {1 - d2 / (d2 - d6), 0, d2 / (d2 - d6)};
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
-    const double w = (d4 - d3) / ((d4 - d3) + (d5 - d6));
-    return {0, 1 - w, w};
-  }
-  const double sum = va + vb + vc;
-  return {va / sum, vb / sum, vc / sum};
+using detail::closest_barycentric;
+using Corners = detail::TrianglePoints;
+
+Vec3 at(const Corners& t, Vec3 barycentric) {
+  return barycentric.x * t[0] + barycentric.y * t[1] + barycentric.z * t[2];
 }
 
-struct Corners {
-  Vec3 a, b, c;
-  Vec3 at(Vec3 barycentric) const { return barycentric.x * a + barycentric.y * b + barycentric.z * c; }
-};
+/// Whether three points lie `reach` or farther from a plane, all on one side. normal has length 1.
+bool beyond(const Corners& t, Vec3 normal, Vec3 on_plane, double reach) {
+  const double a = dot(normal, t[0] - on_plane), b = dot(normal, t[1] - on_plane), c = dot(normal, t[2] - on_plane);
+  return std::min({a, b, c}) >= reach || std::max({a, b, c}) <= -reach;
+}
+
+/// How far `to` begins beyond the end of `from` in a direction, times its length.
+double gap_along(Vec3 direction, const Corners& from, const Corners& to) {
+  return std::min({dot(direction, to[0]), dot(direction, to[1]), dot(direction, to[2])}) -
+         std::max({dot(direction, from[0]), dot(direction, from[1]), dot(direction, from[2])});
+}
+
+Vec3 normal_of(const Corners& t) { return normalized(cross(t[1] - t[0], t[2] - t[0])); }
 
 }  // namespace
 
@@ -64,13 +60,10 @@ struct SurfaceDistance::Impl {
 
   double squared_distance(Vec3 point, std::uint32_t triangle) const {
     const Corners t = corners(triangle);
-    return squared_norm(point - t.at(closest_barycentric(point, t.a, t.b, t.c)));
+    return squared_norm(point - at(t, closest_barycentric(point, t)));
   }
 
-  Vec3 normal(std::uint32_t triangle) const {
-    const Corners t = corners(triangle);
-    return normalized(cross(t.b - t.a, t.c - t.a));
-  }
+  Vec3 normal(std::uint32_t triangle) const { return normal_of(corners(triangle)); }
 
   Vec3 edge_pseudonormal(std::uint32_t v, std::uint32_t w) const {
     Vec3 sum;
@@ -170,15 +163,51 @@ SurfaceDistance::Closest SurfaceDistance::closest(Vec3 point, std::uint32_t hint
   return {std::sqrt(search.squared), search.triangle};
 }
 
+double SurfaceDistance::from_triangle(Vec3 a, Vec3 b, Vec3 c, double at_most) const {
+  struct Search {
+    const Impl& impl;
+    Corners triangle;
+    Vec3 normal, center;
+    double around;  // radius of a ball round center that holds the triangle
+    double least;
+
+    float radius() const { return static_cast<float>((around + least) * (1 + 1e-6) + impl.slack_mm); }
+  };
+  Search search{*impl_, {a, b, c}, normal_of({a, b, c}), (a + b + c) / 3, 0, at_most};
+  search.around = std::max({norm(a - search.center), norm(b - search.center), norm(c - search.center)});
+  RTCPointQuery query{};
+  query.x = static_cast<float>(search.center.x);
+  query.y = static_cast<float>(search.center.y);
+  query.z = static_cast<float>(search.center.z);
+  query.radius = search.radius();
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  const auto visit = [](RTCPointQueryFunctionArguments* arguments) {
+    Search& s = *static_cast<Search*>(arguments->userPtr);
+    const Corners other = s.impl.corners(arguments->primID);
+    if (beyond(other, s.normal, s.triangle[0], s.least)) return false;
+    if (beyond(s.triangle, normal_of(other), other[0], s.least)) return false;
+    const Vec3 across = at(other, closest_barycentric(s.center, other)) - s.center;
+    if (gap_along(across, s.triangle, other) > s.least * norm(across)) return false;
+    const double distance = std::sqrt(detail::squared_distance(s.triangle, other));
+    if (distance >= s.least) return false;
+    s.least = distance;
+    arguments->query->radius = s.radius();
+    return true;
+  };
+  rtcPointQuery(impl_->scene.get(), &query, &context, visit, &search);
+  return search.least;
+}
+
 Vec3 SurfaceDistance::closest_point(Vec3 point, std::uint32_t triangle) const {
   const Corners t = impl_->corners(triangle);
-  return t.at(closest_barycentric(point, t.a, t.b, t.c));
+  return at(t, closest_barycentric(point, t));
 }
 
 bool SurfaceDistance::inside(Vec3 point, const Closest& nearest) const {
   const Triangle& t = impl_->mesh.triangles[nearest.triangle];
   const Corners corners = impl_->corners(nearest.triangle);
-  const Vec3 weights = closest_barycentric(point, corners.a, corners.b, corners.c);
+  const Vec3 weights = closest_barycentric(point, corners);
   std::array<std::uint32_t, 3> feature{};
   int size = 0;
   for (int corner = 0; corner < 3; ++corner)
@@ -186,7 +215,7 @@ bool SurfaceDistance::inside(Vec3 point, const Closest& nearest) const {
   const Vec3 outward = size == 1   ? impl_->vertex_pseudonormal(feature[0])
                        : size == 2 ? impl_->edge_pseudonormal(feature[0], feature[1])
                                    : impl_->normal(nearest.triangle);
-  return dot(point - corners.at(weights), outward) < 0;
+  return dot(point - at(corners, weights), outward) < 0;
 }
 
 }  // namespace aplomb::adapters

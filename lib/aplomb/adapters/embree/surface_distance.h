@@ -28,6 +28,10 @@ class SurfaceDistance {
   /// the distance. Safe to call from several threads.
   Closest closest(Vec3 point_mm, std::uint32_t hint = no_triangle) const;
 
+  /// The least distance from a triangle, to rounding, or `at_most_mm` when that is not more.
+  /// \pre a, b, c are not collinear. \par Cost  grows with the triangles within at_most_mm of it.
+  double from_triangle(Vec3 a, Vec3 b, Vec3 c, double at_most_mm) const;
+
   /// The point of a triangle that is closest to a point.
   Vec3 closest_point(Vec3 point_mm, std::uint32_t triangle) const;
 

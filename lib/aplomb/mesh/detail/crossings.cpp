@@ -1,6 +1,8 @@
 #include "aplomb/mesh/detail/crossings.h"
 
 #include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
 
 #include <algorithm>
@@ -13,6 +15,8 @@ namespace aplomb::detail {
 namespace {
 
 using adapters::Corners;
+
+constexpr std::uint32_t leaves_a_step = 4096;  // about 15 ms: steps bound the wait for a cancel, whatever the threads
 
 Corners corners_of(const TriangleMesh& mesh, const Triangle& t) {
   return {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
@@ -67,7 +71,6 @@ bool cross(const TriangleMesh& mesh, const Triangle& s, const Triangle& t) {
 
 Result<std::size_t> count_crossings(const TriangleMesh& mesh, const TriangleTree& tree,
                                     const std::vector<bool>& skipped, const Job& job) {
-  constexpr std::uint32_t leaves_a_step = 4096;  // about 15 ms: steps bound the wait for a cancel, whatever the threads
   std::size_t crossings = 0;
   for (std::uint32_t first = 0; first < tree.leaves() && crossings < most_crossings; first += leaves_a_step) {
     if (!job.report(static_cast<double>(first) / tree.leaves(), "check")) return cancelled();
@@ -87,13 +90,21 @@ Result<std::size_t> count_crossings(const TriangleMesh& mesh, const TriangleTree
 Result<std::vector<bool>> crossing_triangles(const TriangleMesh& mesh, const TriangleTree& tree,
                                              const std::vector<bool>& skipped, const Job& job) {
   std::vector<bool> crossing(mesh.triangles.size());
-  for (std::uint32_t leaf = 0; leaf < tree.leaves(); ++leaf) {
-    if (leaf % 4096 == 0 && !job.report(static_cast<double>(leaf) / tree.leaves(), "check")) return cancelled();
-    tree.pairs_of_leaf(leaf, [&](std::uint32_t s, std::uint32_t t) {
-      if (!skipped[s] && !skipped[t] && cross(mesh, mesh.triangles[s], mesh.triangles[t]))
-        crossing[s] = crossing[t] = true;
+  tbb::enumerable_thread_specific<std::vector<std::uint32_t>> found;  // by thread; the union does not depend on it
+  for (std::uint32_t first = 0; first < tree.leaves(); first += leaves_a_step) {
+    if (!job.report(static_cast<double>(first) / tree.leaves(), "check")) return cancelled();
+    const tbb::blocked_range<std::uint32_t> step(first, std::min(first + leaves_a_step, tree.leaves()), 64);
+    tbb::parallel_for(step, [&](const tbb::blocked_range<std::uint32_t>& leaves) {
+      std::vector<std::uint32_t>& mine = found.local();
+      for (std::uint32_t leaf = leaves.begin(); leaf != leaves.end(); ++leaf)
+        tree.pairs_of_leaf(leaf, [&](std::uint32_t s, std::uint32_t t) {
+          if (!skipped[s] && !skipped[t] && cross(mesh, mesh.triangles[s], mesh.triangles[t]))
+            mine.insert(mine.end(), {s, t});
+        });
     });
   }
+  for (const std::vector<std::uint32_t>& triangles : found)
+    for (const std::uint32_t t : triangles) crossing[t] = true;
   return crossing;
 }
 
