@@ -47,7 +47,7 @@ struct StandOptions {
   StandingPose pose;    ///< how it is to stand; its required_tip_rad is what is asked for
   bool robust = false;  ///< asked of the robust tip angle instead of the nominal one
   CarveAim aim = CarveAim::least;
-  double wall_mm = 1.6;  ///< > 0; four lines of a 0.4 mm nozzle
+  double wall_mm = 1.6;            ///< > 0; four lines of a 0.4 mm nozzle
   std::optional<double> voxel_mm;  ///< none: at least 4 voxels in the wall and about 256 on the diagonal
   double least_void_mm = 1;        ///< no void narrower, >= 0
   double least_volume_mm3 = 10;    ///< no void smaller, >= 0

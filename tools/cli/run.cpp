@@ -120,7 +120,8 @@ int run_stand(const Arguments& a, const Input& input, double load_seconds, const
     report = std::move(*measured);
   }
   report.stage_seconds.insert(report.stage_seconds.begin(), {"load", load_seconds});
-  report.stage_seconds.emplace_back("write", std::chrono::duration<double>(std::chrono::steady_clock::now() - before_writing).count());
+  report.stage_seconds.emplace_back(
+      "write", std::chrono::duration<double>(std::chrono::steady_clock::now() - before_writing).count());
   if (const auto published = publish(report, a); !published) return report_error(published.error());
   return report.outcome == Outcome::best_effort ? Exit::cannot_stand : Exit::stands;
 }
