@@ -25,7 +25,7 @@ constexpr double collinear_ratio = 1e-5;
 constexpr double shape_deviations = 4;  // a triangle lower than this many deviations has no normal to speak of
 constexpr double first_limit = 0x1p-10, limit_factor = 4;  // on costs, from pass to pass; 1 is the last
 constexpr double another_pass_share = 0.02;                // at the same limit, while so many vertices go
-constexpr double watched_share = 0.5;                      // of the deviation: edges sharper than that are watched
+constexpr double watched_share = 0.2;                      // of the deviation: edges sharper than that are watched
 constexpr double length_weight = 1e-6;                     // breaks ties in flat places: short edges first
 
 class Simplifier {

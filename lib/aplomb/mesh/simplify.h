@@ -23,7 +23,8 @@ struct SimplifiedMesh {
 ///
 /// - every given vertex, and the middle of every sharp edge, stays within deviation_mm of the result, by a certificate
 ///   that is carried along (triangle_near; Klein, Liebich and Strasser 1996). A quadric is a mean, so it orders and
-///   does not decide. Nothing is proven for the points between; there and back twice the deviation was never exceeded;
+///   does not decide. Nothing is proven for the points between: of three carved models 99.6 % of the points, there
+///   and back, were within deviation_mm, and the farthest 2.2 times that;
 /// - the surface stays a closed 2-manifold of the same genus (the link condition);
 /// - no triangle turns by more than 60 degrees from what it was when it first had a shape, and none becomes a needle.
 ///
