@@ -62,6 +62,17 @@ TEST(SurfaceDistance, DoesNotDependOnTheHint) {
       EXPECT_EQ(surface.closest(p, hint).distance_mm, surface.closest(p).distance_mm);
 }
 
+TEST(SurfaceDistance, NeedOnlyTellThatItIsNearEnough) {
+  const TriangleMesh mesh = rounded_to_float(test::sphere({1, 2, 3}, 10, 3));
+  const SurfaceDistance surface(mesh);
+  for (const Vec3 p : points_round(mesh, 300)) {
+    const double exact = surface.closest(p).distance_mm;
+    EXPECT_EQ(surface.closest(p, 5, 0.99 * exact).distance_mm, exact);
+    const double near_enough = surface.closest(p, 5, 1.5 * exact).distance_mm;
+    EXPECT_TRUE(exact <= near_enough && near_enough <= 1.5 * exact);
+  }
+}
+
 TEST(SurfaceDistance, ToABoxIsTheClosedForm) {
   const Vec3 size{4, 6, 8};
   const SurfaceDistance surface(test::box({0, 0, 0}, size));

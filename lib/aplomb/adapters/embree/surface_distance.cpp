@@ -43,6 +43,32 @@ double gap_along(Vec3 direction, const Corners& from, const Corners& to) {
 
 Vec3 normal_of(const Corners& t) { return normalized(cross(t[1] - t[0], t[2] - t[0])); }
 
+/// A disc round a triangle, in single precision: a quick way to tell that the triangle lies farther than another.
+struct Disc {
+  std::array<float, 3> centre, normal;
+  float radius;
+
+  Disc(const Corners& t, Vec3 origin, double slack) {
+    const Vec3 middle = (t[0] + t[1] + t[2]) / 3, n = normal_of(t);
+    double farthest = 0;
+    for (const Vec3& corner : t) farthest = std::max(farthest, squared_norm(corner - middle));
+    radius = static_cast<float>(std::sqrt(farthest) + slack);
+    for (int axis = 0; axis < 3; ++axis) {
+      centre[axis] = static_cast<float>((middle - origin)[axis]);
+      normal[axis] = static_cast<float>(n[axis]);
+    }
+  }
+
+  /// Never no when the triangle is so near, whatever single precision loses.
+  bool may_be_nearer(const std::array<float, 3>& point, float squared_distance) const {
+    const float x = point[0] - centre[0], y = point[1] - centre[1], z = point[2] - centre[2];
+    const float squared = x * x + y * y + z * z;
+    const float above = x * normal[0] + y * normal[1] + z * normal[2];
+    const float beside = std::max(0.0F, std::sqrt(std::max(0.0F, squared - above * above)) - radius);
+    return !(above * above + beside * beside > squared_distance + 1e-4F * squared);  // so too without a normal
+  }
+};
+
 }  // namespace
 
 struct SurfaceDistance::Impl {
@@ -51,7 +77,9 @@ struct SurfaceDistance::Impl {
   TriangleMesh mesh;
   std::vector<std::uint32_t> fan_begin;  // per vertex: its triangles are fan[fan_begin[v] .. fan_begin[v + 1])
   std::vector<std::uint32_t> fan;
-  double slack_mm = 0;  // how far a point may move when Embree takes it in single precision
+  Vec3 origin;              // of the discs' coordinates
+  std::vector<Disc> discs;  // one per triangle
+  double slack_mm = 0;      // how far a point may move when Embree takes it in single precision
 
   Corners corners(std::uint32_t triangle) const {
     const Triangle& t = mesh.triangles[triangle];
@@ -123,6 +151,10 @@ SurfaceDistance::SurfaceDistance(const TriangleMesh& mesh) {
   double reach = 0;
   for (int axis = 0; axis < 3; ++axis) reach = std::max({reach, std::abs(box.min[axis]), std::abs(box.max[axis])});
   impl->slack_mm = 8 * static_cast<double>(std::numeric_limits<float>::epsilon()) * reach;
+  impl->origin = 0.5 * (box.min + box.max);
+  impl->discs.reserve(mesh.triangles.size());
+  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i)
+    impl->discs.emplace_back(impl->corners(i), impl->origin, 1e-6 * box.diagonal());
   impl->device.reset(rtcNewDevice("threads=1"));
   impl->scene.reset(rtcNewScene(impl->device.get()));
   rtcSetSceneFlags(impl->scene.get(), RTC_SCENE_FLAG_ROBUST);
@@ -131,18 +163,23 @@ SurfaceDistance::SurfaceDistance(const TriangleMesh& mesh) {
   impl_ = std::move(impl);
 }
 
-SurfaceDistance::Closest SurfaceDistance::closest(Vec3 point, std::uint32_t hint) const {
+SurfaceDistance::Closest SurfaceDistance::closest(Vec3 point, std::uint32_t hint, double near_enough) const {
   struct Search {
     const Impl& impl;
     Vec3 point;
+    double near_enough_squared;
+    std::array<float, 3> relative{};
     double squared = std::numeric_limits<double>::infinity();
     std::uint32_t triangle = no_triangle;
 
     // Box tests see the point in single precision: slack keeps them from missing a triangle.
-    float radius() const { return static_cast<float>(std::sqrt(squared) * (1 + 1e-6) + impl.slack_mm); }
+    float radius() const { return squared <= near_enough_squared ? 0.0F : reach(); }
+    float reach() const { return static_cast<float>(std::sqrt(squared) * (1 + 1e-6) + impl.slack_mm); }
   };
-  Search search{*impl_, point};
+  Search search{*impl_, point, near_enough * near_enough};
   if (hint != no_triangle) search.squared = impl_->squared_distance(point, hint), search.triangle = hint;
+  if (search.squared <= search.near_enough_squared) return {std::sqrt(search.squared), search.triangle};
+  for (int axis = 0; axis < 3; ++axis) search.relative[axis] = static_cast<float>((point - impl_->origin)[axis]);
   RTCPointQuery query{};
   query.x = static_cast<float>(point.x);
   query.y = static_cast<float>(point.y);
@@ -152,6 +189,7 @@ SurfaceDistance::Closest SurfaceDistance::closest(Vec3 point, std::uint32_t hint
   rtcInitPointQueryContext(&context);
   const auto visit = [](RTCPointQueryFunctionArguments* arguments) {
     Search& s = *static_cast<Search*>(arguments->userPtr);
+    if (!s.impl.discs[arguments->primID].may_be_nearer(s.relative, static_cast<float>(s.squared))) return false;
     const double squared = s.impl.squared_distance(s.point, arguments->primID);
     if (squared >= s.squared) return false;
     s.squared = squared;

@@ -25,8 +25,9 @@ class SurfaceDistance {
   explicit SurfaceDistance(const TriangleMesh& mesh);
 
   /// The closest triangle. `hint`, a triangle believed to be close, makes the search quicker and never changes
-  /// the distance. Safe to call from several threads.
-  Closest closest(Vec3 point_mm, std::uint32_t hint = no_triangle) const;
+  /// the distance. A distance that is no more than `near_enough_mm` may be any that is not, and one of such a triangle.
+  /// Safe to call from several threads.
+  Closest closest(Vec3 point_mm, std::uint32_t hint = no_triangle, double near_enough_mm = 0) const;
 
   /// The least distance from a triangle, to rounding, or `at_most_mm` when that is not more.
   /// \pre a, b, c are not collinear. \par Cost  grows with the triangles within at_most_mm of it.

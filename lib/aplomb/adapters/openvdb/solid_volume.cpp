@@ -30,8 +30,8 @@ class Kept {
  public:
   explicit Kept(const SolidMesh& solid) : surface_(solid.mesh()), anchors_(void_anchors(solid)) {}
 
-  SurfaceDistance::Closest closest(Vec3 point, std::uint32_t hint) const {
-    auto nearest = surface_.closest(point, hint);
+  SurfaceDistance::Closest closest(Vec3 point, std::uint32_t hint, double near_enough_mm) const {
+    auto nearest = surface_.closest(point, hint, near_enough_mm);
     for (const VoidAnchor& anchor : anchors_)
       nearest.distance_mm = std::min(nearest.distance_mm, anchor.distance_mm(point));
     return nearest;
@@ -66,9 +66,10 @@ class Sampler {
   Decision decide(const Coord& origin, int size, SurfaceDistance::Closest& nearest, std::uint32_t hint) const {
     const double h = frame_.voxel_mm, half = 0.5 * (size - 1);
     const Vec3 centre = frame_.position_mm({origin[0], origin[1], origin[2]}) + h * half * Vec3{1, 1, 1};
-    nearest = kept_.closest(centre, hint);
-    const double reach = std::sqrt(3.0) * half * h, d = nearest.distance_mm;
-    if (d + reach <= depth_mm_ - exact_reach * h) return Decision::outside;
+    const double reach = std::sqrt(3.0) * half * h, outside_to = depth_mm_ - exact_reach * h - reach;
+    nearest = kept_.closest(centre, hint, std::max(0.0, outside_to));
+    const double d = nearest.distance_mm;
+    if (d <= outside_to) return Decision::outside;
     if (d <= reach) return Decision::mixed;
     if (!kept_.inside(centre, nearest)) return Decision::outside;
     return d - reach >= depth_mm_ + background_mm_ ? Decision::inside : Decision::mixed;
