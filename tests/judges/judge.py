@@ -21,12 +21,13 @@ import void_core
 HERE = pathlib.Path(__file__).resolve().parent
 LAYER_MM = 0.2
 FILAMENT_MM = 1.75
+BED_CENTRE_MM = 500
 SLICING = [
     "--fill-pattern", "rectilinear", "--fill-density", "100%", "--filament-diameter", str(FILAMENT_MM),
     "--nozzle-diameter", "0.4", "--layer-height", str(LAYER_MM), "--first-layer-height", str(LAYER_MM),
     "--first-layer-extrusion-width", "0.45", "--elefant-foot-compensation", "0", "--skirts", "0", "--brim-width", "0",
     "--infill-overlap", "10%",  # at the default 25 % the infill lies on the perimeters: 2.4 % too much in a sphere's 5 mm wall
-    "--slicing-mode", "regular", "--bed-shape=-500x-500,500x-500,500x500,-500x500", "--max-print-height", "1000",
+    "--slicing-mode", "regular", "--bed-shape=0x0,1000x0,1000x1000,0x1000", "--max-print-height", "1000",
 ]
 
 
@@ -79,13 +80,15 @@ def sliced(path, mesh):
     """Every extrusion of the sliced file, in the mesh's own coordinates, z in the middle of the bead."""
     used = [mesh.vertices[i] for triangle in mesh.triangles for i in triangle]
     low, high = ([pick(v[axis] for v in used) for axis in range(3)] for pick in (min, max))
-    centre = f"{(low[0] + high[0]) / 2},{(low[1] + high[1]) / 2}"
+    # Round numbers in the middle of the bed: about a centre such as -0.0014, PrusaSlicer 2.5 finds no room on any bed.
+    shift = [(low[axis] + high[axis]) / 2 - BED_CENTRE_MM for axis in range(2)]
     with tempfile.TemporaryDirectory() as folder:
         program = pathlib.Path(folder) / "print.gcode"
-        run("prusa-slicer", "--export-gcode", *SLICING, "--center", centre, "--output", str(program), path)
+        run("prusa-slicer", "--export-gcode", *SLICING, "--center", f"{BED_CENTRE_MM},{BED_CENTRE_MM}", "--output", str(program), path)
         with open(program) as lines:
             for extrusion in gcode.extrusions(lines, FILAMENT_MM):
-                yield extrusion._replace(z=extrusion.z - LAYER_MM / 2 + low[2])
+                start, end = (tuple(map(sum, zip(point, shift))) for point in (extrusion.start, extrusion.end))
+                yield extrusion._replace(start=start, end=end, z=extrusion.z - LAYER_MM / 2 + low[2])
 
 
 def share_inside(core, extrusion):
