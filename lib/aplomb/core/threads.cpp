@@ -6,13 +6,13 @@
 namespace aplomb {
 
 struct ThreadLimit::Impl {
+  explicit Impl(std::size_t threads) : control(tbb::global_control::max_allowed_parallelism, threads) {}
   tbb::global_control control;
 };
 
 ThreadLimit::ThreadLimit(int threads) {
   const int count = threads > 0 ? threads : tbb::info::default_concurrency();
-  impl_ = std::make_unique<Impl>(
-      tbb::global_control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(count)));
+  impl_ = std::make_unique<Impl>(static_cast<std::size_t>(count));
 }
 
 ThreadLimit::~ThreadLimit() = default;
