@@ -24,7 +24,6 @@ int exit_code(const Error& error) {
     case ErrorCode::invalid_option:
       return Exit::usage;
     case ErrorCode::unusable_input:
-      return Exit::bad_input;
     case ErrorCode::file_system:
       return Exit::bad_input;
     case ErrorCode::cancelled:

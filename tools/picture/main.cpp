@@ -46,7 +46,7 @@ View view_of(const Request& request, Vec3 heading) {
 }
 
 Result<Figure> read_figure(const std::string& path, const Request& request) {
-  return read_mesh(path).and_then([&](MeshFile file) {
+  return read_mesh(path).and_then([&](const MeshFile& file) {
     TriangleMesh mesh;
     for (const MeshObject& object : file.objects) mesh = joined(std::move(mesh), object.mesh);
     return stood_up(std::move(mesh), direction(request.up), request.contact_height_mm);
