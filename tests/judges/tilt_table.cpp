@@ -84,6 +84,8 @@ class TiltTable {
     btSequentialImpulseConstraintSolver solver;
     btDiscreteDynamicsWorld world(&dispatcher_, &broadphase_, &solver, &configuration_);
     world.getSolverInfo().m_numIterations = 100;
+    // Friction along the slip alone, which is the default, lets a body on a few points creep round sideways.
+    world.getSolverInfo().m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
     body_->clearForces();
     body_->setLinearVelocity({0, 0, 0});
     body_->setAngularVelocity({0, 0, 0});

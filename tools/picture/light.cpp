@@ -20,7 +20,8 @@ Lamp lamp(const TriangleMesh& mesh, Vec3 towards, Colour light, const std::optio
   const double pixels = 1 / out.camera.samples_per_mm;
   rasterize(mesh, out.camera, [&](std::size_t sample, double z, std::size_t, bool) {
     if (cut) {
-      const double x = double(sample % map_size) + 0.5, y = double(sample / map_size) + 0.5;
+      const std::size_t column = sample % map_size, row = sample / map_size;
+      const double x = double(column) + 0.5, y = double(row) + 0.5;
       if (dot(out.camera.unproject(x, y, z) - cut->point_mm, cut->normal) > pixels) return;
     }
     out.depth[sample] = std::max(out.depth[sample], float(z));

@@ -12,7 +12,7 @@ namespace aplomb::picture {
 namespace {
 
 constexpr int oversampling = 3;
-constexpr std::size_t shares = oversampling * oversampling;
+constexpr std::size_t shares = std::size_t{oversampling} * oversampling;
 constexpr std::uint32_t nothing = 0xFFFFFFFF;
 constexpr double crease_cosine = 0.77;  // faces that meet more sharply are shaded flat
 constexpr Colour background{0.87F, 0.86F, 0.84F};
@@ -154,7 +154,8 @@ class Drawing {
     rasterize(subject_.mesh, camera_, [&](std::size_t s, double z, std::size_t t, bool front) {
       if (cut_) {
         const auto width = std::size_t(camera_.width);
-        if (z > cut_depth(double(s % width) + 0.5, double(s / width) + 0.5)) return;
+        const std::size_t column = s % width, row = s / width;
+        if (z > cut_depth(double(column) + 0.5, double(row) + 0.5)) return;
         samples_.winding[s] = static_cast<std::int8_t>(samples_.winding[s] + (front ? -1 : 1));
       }
       if (float(z) <= samples_.depth[s]) return;

@@ -40,7 +40,7 @@ std::vector<Candidate> candidates(const TriangleMesh& hull, Vec3 com_mm) {
 /// The farthest vertex in each cell of a cube drawn around the centre: a hull's worth of points, however fine the mesh.
 std::vector<Vec3> outer_vertices(const TriangleMesh& mesh) {
   constexpr std::size_t enough = 20000;
-  constexpr int cells = 48;  // along an edge of the cube
+  constexpr std::size_t cells = 48;  // along an edge of the cube
   if (mesh.vertices.size() <= enough) return mesh.vertices;
   const Box3 box = bounding_box(mesh);
   const Vec3 center = 0.5 * (box.min + box.max);
@@ -53,11 +53,10 @@ std::vector<Vec3> outer_vertices(const TriangleMesh& mesh) {
     const double reach = std::abs(out[axis]);
     if (reach == 0) continue;
     const auto cell = [&](double along) {
-      return std::clamp(static_cast<int>((along / reach + 1) / 2 * cells), 0, cells - 1);
+      return std::min(static_cast<std::size_t>((along / reach + 1) / 2 * double{cells}), cells - 1);
     };
-    const int face = 2 * axis + (out[axis] > 0 ? 1 : 0);
-    Vec3& known = farthest[static_cast<std::size_t>((face * cells + cell(out[(axis + 1) % 3])) * cells +
-                                                    cell(out[(axis + 2) % 3]))];
+    const std::size_t face = 2 * static_cast<std::size_t>(axis) + (out[axis] > 0 ? 1 : 0);
+    Vec3& known = farthest[(face * cells + cell(out[(axis + 1) % 3])) * cells + cell(out[(axis + 2) % 3])];
     if (squared_norm(out) > squared_norm(known)) known = out;
   }
   std::erase(farthest, Vec3{});

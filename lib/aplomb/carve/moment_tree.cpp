@@ -9,6 +9,12 @@
 namespace aplomb {
 namespace {
 
+/// Cells of a block, x slowest.
+Vec3 cell_index(int cell) {
+  const int i = cell / 64, j = cell / 8 % 8, k = cell % 8;
+  return {double(i), double(j), double(k)};
+}
+
 Moments uniform_cube(Vec3 origin, double size) {
   const double volume = size * size * size;
   return {volume, volume * (origin + 0.5 * size * Vec3{1, 1, 1})};
@@ -90,7 +96,7 @@ MomentTree::Node MomentTree::leaf_node(std::uint32_t index) const {
   }
   for (int cell = 0; cell < CarvableBlock::cells; ++cell)
     if (block.shares[cell] > 0) {
-      const Vec3 corner = origin + h * Vec3{double(cell / 64), double(cell / 8 % 8), double(cell % 8)};
+      const Vec3 corner = origin + h * cell_index(cell);
       node.moments += double(block.shares[cell]) * uniform_cube(corner, h);
     }
   return node;
@@ -160,7 +166,7 @@ Moments MomentTree::block_part(const CarvableBlock& block, const AffineForm& for
   Moments sum;
   for (int cell = 0; cell < CarvableBlock::cells; ++cell) {
     if (block.shares[cell] == 0) continue;
-    const Vec3 corner = origin + h * Vec3{double(cell / 64), double(cell / 8 % 8), double(cell % 8)};
+    const Vec3 corner = origin + h * cell_index(cell);
     const double middle = form(corner + 0.5 * h * Vec3{1, 1, 1});
     if (middle - reach > 0) continue;
     sum += double(block.shares[cell]) * (middle + reach <= 0 ? uniform_cube(corner, h) : cut_cube(form, corner, h));

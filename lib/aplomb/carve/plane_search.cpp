@@ -103,7 +103,7 @@ Result<PlaneChoice> PlaneSearch::most_stable(double tolerance, const Job& job) {
   if (best.bound - best.t <= tolerance || !(t > best.t)) return best;
   // Mixtures alone reach it: the form is nowhere but zero (a figure that hangs and is balanced already by many bodies).
   // Of these bodies the one with the most volume is a half-space again.
-  const auto balanced = extreme_volume(VolumeAim::most, t - tolerance, best, job);
+  auto balanced = extreme_volume(VolumeAim::most, t - tolerance, best, job);
   if (!balanced) return balanced;
   if (balanced->t > best.t) best = {balanced->kept, balanced->body, balanced->t, best.bound};
   return best;

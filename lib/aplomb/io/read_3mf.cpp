@@ -86,7 +86,7 @@ class Assembler {
     Amount sum{static_cast<double>((*found)->mesh.vertices.size()),
                static_cast<double>((*found)->mesh.triangles.size()), 1, true};
     for (const ThreemfReference& component : (*found)->components) {
-      const auto inner = amount(key_of(component, key.part), level + 1);
+      auto inner = amount(key_of(component, key.part), level + 1);
       if (!inner) return inner;
       sum.vertices += inner->vertices;
       sum.triangles += inner->triangles;

@@ -135,7 +135,7 @@ Result<MeshFile> read_stl_binary(ReadContext& context) {
     float corners[9];
     std::memcpy(corners, bytes.data() + kHeader + kFacet * facet + 12, sizeof corners);
     Triangle triangle;
-    for (int corner = 0; corner < 3; ++corner) {
+    for (std::size_t corner = 0; corner < 3; ++corner) {
       const float* p = corners + 3 * corner;
       if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]))
         return context.unusable("facet " + std::to_string(facet + 1),

@@ -65,7 +65,7 @@ void mark_as_binary(Bytes& stl) {
   const auto begin = stl.begin() + 84,
              end = stl.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(212, stl.size()));
   if (std::any_of(begin, end, [](std::byte b) { return b > std::byte{127}; })) return;
-  for (int axis = 0; axis < 3; ++axis) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
     float component = 0;
     std::memcpy(&component, stl.data() + 84 + 4 * axis, sizeof component);
     if (component == 0) {

@@ -52,6 +52,7 @@ std::vector<TriangleMesh> split_prints(const TriangleMesh& mesh) {
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) triangles[number[components.of_triangle[t]]].push_back(t);
   std::vector<std::uint32_t> places(mesh.vertices.size());
   std::vector<TriangleMesh> parts;
+  parts.reserve(count);
   for (const auto& members : triangles) parts.push_back(part_of(mesh, members, places));
   return parts;
 }

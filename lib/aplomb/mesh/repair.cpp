@@ -178,9 +178,8 @@ class Repair {
   Result<bool> repair_crossings() {
     if (!defects_.manifold()) return false;
     if (const std::vector<TriangleMesh> bodies = detail::bodies_to_unite(mesh_); !bodies.empty()) {
-      const Result<bool> solid =
-          tried(detail::united(bodies, limits(), job_.part(0.45, 0.55)),
-                counted(bodies.size(), "body", "bodies") + " that crossed or touched were united.");
+      Result<bool> solid = tried(detail::united(bodies, limits(), job_.part(0.45, 0.55)),
+                                 counted(bodies.size(), "body", "bodies") + " that crossed or touched were united.");
       if (!solid || *solid) return solid;
     }
     if (Result<bool> solid = try_setting_apart(); !solid || *solid) return solid;
@@ -191,7 +190,7 @@ class Repair {
     for (int round = 0; round < most_rounds && defects_.manifold(); ++round) {
       const std::size_t before = defects_.self_intersections;
       const Job part = job_.part(0.55 + 0.05 * round, 0.6 + 0.05 * round);
-      const Result<bool> solid =
+      Result<bool> solid =
           tried(detail::without_self_intersections(mesh_, limits(), part), std::exchange(sentence, {}));
       if (!solid || *solid) return solid;
       if (defects_.self_intersections >= before) break;
@@ -204,7 +203,7 @@ class Repair {
     const detail::SetApart apart = detail::set_apart(mesh_);
     if (apart.places == 0) return false;
     const MeshDefects before = defects_;
-    const Result<bool> solid = is_solid(apart.mesh, 0.55, 0.55);
+    Result<bool> solid = is_solid(apart.mesh, 0.55, 0.55);
     if (!solid) return solid;
     if (!*solid) {
       defects_ = before;
@@ -261,7 +260,7 @@ class Repair {
           " of its inside it is not clear that it is inside; close it in a modeller, or insist (--repair force)");
     const TriangleMesh surface = detail::without_crumbs(detail::surface_of(grid, mesh_));
     if (surface.triangles.empty()) return refuse("it encloses no volume");
-    const Result<bool> solid = is_solid(surface, 0.85, 0.95);
+    Result<bool> solid = is_solid(surface, 0.85, 0.95);
     if (!solid) return tl::unexpected(solid.error());
     if (!*solid) return fail(ErrorCode::internal, "the rebuilt surface has " + describe(defects_));
     mesh_ = surface;

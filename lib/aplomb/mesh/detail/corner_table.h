@@ -28,7 +28,7 @@ class CornerTable {
   /// A half-edge that leaves the vertex; `none` for a vertex without triangles.
   Corner leaving(std::uint32_t v) const { return leaving_[v]; }
   std::uint32_t valence(std::uint32_t v) const { return valences_[v]; }
-  bool has_triangle(std::uint32_t t) const { return vertices_[3 * t] != none; }
+  bool has_triangle(std::uint32_t t) const { return vertices_[3 * std::size_t{t}] != none; }
 
   /// Whether collapsing the half-edge leaves a 2-manifold of the same genus with no valence under 3: the two ends
   /// share two neighbours (the link condition, Dey et al. 1999), and these have a valence of 4 or more.

@@ -94,8 +94,8 @@ void InsideGrid::vote_along(int axis, const TriangleMesh& mesh, std::vector<std:
 
 Vec3 InsideGrid::place_mm(std::size_t index) const {
   const auto width = static_cast<std::size_t>(size_[0]), height = static_cast<std::size_t>(size_[1]);
-  return origin_mm_ + voxel_mm_ * Vec3{static_cast<double>(index % width), static_cast<double>(index / width % height),
-                                       static_cast<double>(index / width / height)};
+  const std::size_t i = index % width, j = index / width % height, k = index / width / height;
+  return origin_mm_ + voxel_mm_ * Vec3{static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)};
 }
 
 double InsideGrid::volume_mm3() const {
