@@ -28,15 +28,9 @@ class ObjReader {
 
  private:
   Result<void> read_vertex() {
-    Vec3 position;
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto value = text_.number();
-      if (!value)
-        return context_.unusable(text_.place(), "expected a finite coordinate, found " + in_quotes(text_.peek_word()) +
-                                                    "; repair or export the model again");
-      position[axis] = *value;
-    }
-    if (!mesh_.add_vertex(position)) return mesh_.failure();
+    const Result<Vec3> position = context_.read_position(text_);
+    if (!position) return tl::unexpected(position.error());
+    if (!mesh_.add_vertex(*position)) return mesh_.failure();
     return {};  // a weight or a colour may follow
   }
 

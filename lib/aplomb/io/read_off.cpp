@@ -54,14 +54,10 @@ class OffReader {
 
   Result<void> read_vertex() {
     text_.skip_to_word();
-    Vec3 position;
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto value = text_.number();
-      if (!value) return unexpected("a finite coordinate");
-      position[axis] = *value;
-    }
+    const Result<Vec3> position = context_.read_position(text_);
+    if (!position) return tl::unexpected(position.error());
     text_.next_line();
-    if (!mesh_.add_vertex(position)) return mesh_.failure();
+    if (!mesh_.add_vertex(*position)) return mesh_.failure();
     return {};
   }
 

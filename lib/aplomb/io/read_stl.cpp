@@ -70,19 +70,15 @@ class AsciiReader {
 
   Result<void> read_corner() {
     const TextCursor start = text_;
-    Vec3 position;
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto value = text_.number();
-      if (!value)
-        return context_.unusable(text_.place(), "expected a finite coordinate, found " + in_quotes(text_.peek_word()) +
-                                                    "; repair or export the model again");
-      position[axis] = static_cast<float>(*value);  // STL is a float32 format, however it is written
-    }
+    Result<Vec3> position = context_.read_position(text_);
+    if (!position) return tl::unexpected(position.error());
+    for (int axis = 0; axis < 3; ++axis)
+      (*position)[axis] = static_cast<float>((*position)[axis]);  // STL is a float32 format, however it is written
     if (!in_facet_ || corners_ == 3)
       return context_.unusable(start.place(), in_facet_
                                                   ? "a facet has more than three corners; triangulate the model first"
                                                   : "a vertex stands outside a facet; save the file again");
-    if (!index_.find_or_add(position, triangle_[corners_++])) return index_.failure();
+    if (!index_.find_or_add(*position, triangle_[corners_++])) return index_.failure();
     return {};
   }
 

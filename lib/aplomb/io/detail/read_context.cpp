@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "aplomb/io/detail/text_cursor.h"
+
 namespace aplomb::detail {
 namespace {
 
@@ -16,6 +18,18 @@ tl::unexpected<Error> ReadContext::unusable(std::string_view place, std::string_
   std::string message = name_;
   if (!place.empty()) message.append(", ").append(place);
   return fail(ErrorCode::unusable_input, message.append(": ").append(problem));
+}
+
+Result<Vec3> ReadContext::read_position(TextCursor& text) const {
+  Vec3 position;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto value = text.number();
+    if (!value)
+      return unusable(text.place(), "expected a finite coordinate, found " + in_quotes(text.peek_word()) +
+                                        "; repair or export the model again");
+    position[axis] = *value;
+  }
+  return position;
 }
 
 Result<void> ReadContext::admit(std::size_t vertices, std::size_t triangles, std::size_t work_bytes) const {

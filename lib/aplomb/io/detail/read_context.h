@@ -10,6 +10,8 @@
 
 namespace aplomb::detail {
 
+class TextCursor;
+
 /// What the reader of one format is given: the bytes, what they may cost, and where to leave notes.
 class ReadContext {
  public:
@@ -23,6 +25,9 @@ class ReadContext {
 
   /// "part.obj, line 3: what is wrong" as unusable_input; `place` may be empty.
   tl::unexpected<Error> unusable(std::string_view place, std::string_view problem) const;
+
+  /// The next three numbers of the line; unusable_input where one of them is not finite or is missing.
+  Result<Vec3> read_position(TextCursor& text) const;
 
   /// over_budget unless this many vertices and triangles, with `work_bytes` and the file itself, fit the budget.
   Result<void> admit(std::size_t vertices, std::size_t triangles, std::size_t work_bytes = 0) const;
