@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cassert>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 
@@ -20,20 +19,6 @@ namespace {
 constexpr double degree = std::numbers::pi / 180;
 constexpr double aimed_beyond_rad = 0.004 * degree;  // what simplifying the shell may cost
 constexpr int most_carvings = 3;
-
-class StageClock {
- public:
-  explicit StageClock(Report& report) : report_(report) {}
-  void lap(const char* stage) {
-    const auto now = std::chrono::steady_clock::now();
-    report_.stage_seconds.emplace_back(stage, std::chrono::duration<double>(now - start_).count());
-    start_ = now;
-  }
-
- private:
-  Report& report_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 std::string several_prints(const std::vector<TriangleMesh>& prints) {
   std::string list;
@@ -92,6 +77,7 @@ Report begin_report(const Input& input, const StandOptions& options, const Stand
   report.before = before;
   report.repair = input.repair.steps;
   report.hints = input.notes;
+  report.stage_seconds = input.stage_seconds;
   report.mesh =
       MeshFigures{input.repair.outer_unchanged, true, 0, input.solid.voids(), input.solid.mesh().triangles.size()};
   return report;
@@ -108,16 +94,18 @@ struct CarvedShell {
 
 /// Carves and builds the shell; where simplifying it cost more than was aimed beyond, carves again for as much more.
 Result<CarvedShell> carve_shell(const SolidVolume& volume, const Input& input, const BalanceProblem& problem,
-                                const StandOptions& options, const Job& job) {
+                                const StandOptions& options, StageClock& clock, const Job& job) {
   double aimed_rad = options.pose.required_tip_rad + aimed_beyond_rad;
   for (int round = 1;; ++round) {
     const CarveOptions carving_options{options.aim, std::tan(aimed_rad), options.least_volume_mm3};
     auto carving = carve(volume, input.moments, problem, carving_options, job.part(0, 0.3));
     if (!carving) return tl::unexpected(carving.error());
+    clock.lap("carve");
     carving->reaches = carving->t >= std::tan(options.pose.required_tip_rad);
     if (!carving->reaches && !options.best_effort) return CarvedShell{std::move(*carving), std::nullopt};
     auto shell = build_shell(input.solid, carving->field, {.wall_mm = options.wall_mm}, job.part(0.3, 1));
     if (!shell) return tl::unexpected(shell.error());
+    clock.lap("shell");
     const double tip_rad = std::atan(largest_t(problem, moments(shell->mesh)));
     const double short_rad = options.pose.required_tip_rad - tip_rad;
     if (short_rad <= 0 || !carving->reaches || options.aim == CarveAim::stable || round == most_carvings)
@@ -126,19 +114,19 @@ Result<CarvedShell> carve_shell(const SolidVolume& volume, const Input& input, c
   }
 }
 
-/// How far half the wall would go: carved on a coarse grid, for advice only.
-std::optional<double> tip_with_half_wall(const Input& input, const BalanceProblem& problem,
-                                         const StandOptions& options) {
+/// How far half the wall would go, on a coarse grid.
+std::optional<double> tip_with_half_wall(const Input& input, const BalanceProblem& problem, const StandOptions& options,
+                                         const Job& job) {
   VolumeOptions coarse{options.wall_mm / 2, options.wall_mm / 4, 0, options.memory_bytes};
-  const auto volume = voxelize(input.solid, coarse);
+  const auto volume = voxelize(input.solid, coarse, job.part(0, 0.7));
   if (!volume) return std::nullopt;
-  const auto carving = carve(*volume, input.moments, problem, {CarveAim::stable, 0, options.least_volume_mm3});
-  return carving ? std::optional(std::atan(carving->bound_t)) : std::nullopt;
+  const auto bound_t = carving_bound(*volume, input.moments, problem, job.part(0.7, 1));
+  return bound_t ? std::optional(std::atan(*bound_t)) : std::nullopt;
 }
 
 void add_remedies(Report& report, const Input& input, const BalanceProblem& problem, const StandOptions& options,
-                  const Standing& best) {
-  if (const auto tip_rad = tip_with_half_wall(input, problem, options))
+                  const Standing& best, const Job& job) {
+  if (const auto tip_rad = tip_with_half_wall(input, problem, options, job))
     report.hints.push_back(
         fmt::format("with a wall of {:.3g} mm, or printed twice as high with the wall as it is, carving "
                     "could reach about {:.1f} degrees",
@@ -154,12 +142,15 @@ void add_remedies(Report& report, const Input& input, const BalanceProblem& prob
 
 Result<Input> load_solid(const std::filesystem::path& path, const InputOptions& options, const Job& job,
                          const StageViewer& view) {
+  StageSeconds seconds;
+  StageClock clock(seconds);
   const auto file = read_mesh(path, options.read, job.part(0, 0.3));
   if (!file) return tl::unexpected(file.error());
   std::string several;
   const auto print = choose_print(*file, options.object, several);
   if (!print) return tl::unexpected(print.error());
   if (view) view("1-read", *print);
+  clock.lap("read");
   const auto placed = place(*print, with_file_unit(options.placement, *file));
   if (!placed) return tl::unexpected(placed.error());
   if (view) view("2-placed", placed->mesh);
@@ -168,7 +159,8 @@ Result<Input> load_solid(const std::filesystem::path& path, const InputOptions& 
   if (!several.empty() && split_prints(repaired->solid.mesh()).size() > 1)
     return fail(ErrorCode::unusable_input, std::move(several));
   if (view) view("3-solid", repaired->solid.mesh());
-  Input input{repaired->solid, repaired->solid.moments(), std::move(repaired->report), file->notes};
+  clock.lap("repair");
+  Input input{repaired->solid, repaired->solid.moments(), std::move(repaired->report), file->notes, seconds};
   if (!options.placement.up)
     if (const auto hint = resting_hint(input.solid.mesh(), input.moments, {})) input.notes.push_back(to_text(*hint));
   return input;
@@ -196,7 +188,7 @@ Result<StandRun> stand(const Input& input, const StandOptions& options, const Jo
   if (!before) return tl::unexpected(before.error());
   StandRun run{std::nullopt, std::nullopt, begin_report(input, options, *before)};
   Report& report = run.report;
-  StageClock clock(report);
+  StageClock clock(report.stage_seconds);
   const bool stands = asked_tip_rad(*before, options) >= options.pose.required_tip_rad;
   if (stands && options.aim == CarveAim::least) {
     report.outcome = Outcome::already_stands;
@@ -212,9 +204,8 @@ Result<StandRun> stand(const Input& input, const StandOptions& options, const Jo
   clock.lap("voxelize");
 
   const BalanceProblem problem = rows_of(*before, options);
-  auto carved = carve_shell(*volume, input, problem, options, job.part(0.4, 1));
+  auto carved = carve_shell(*volume, input, problem, options, clock, job.part(0.4, 0.9));
   if (!carved) return tl::unexpected(carved.error());
-  clock.lap("carve");
   run.shell = std::move(carved->shell);
   run.carving = std::move(carved->carving);
   if (view && run.shell) view("4-shell", run.shell->mesh);
@@ -230,7 +221,11 @@ Result<StandRun> stand(const Input& input, const StandOptions& options, const Jo
                      std::atan(carving.bound_t), std::atan(carving.bound_t) - std::atan(carving.t),
                      static_cast<std::size_t>(carving.planes)};
   if (run.shell) report.wall = WallFigures{options.wall_mm, run.shell->wall_mm};
-  if (!carving.reaches) add_remedies(report, input, problem, options, *after);
+  if (!carving.reaches) {
+    clock.lap("measure");
+    add_remedies(report, input, problem, options, *after, job.part(0.9, 1));
+    clock.lap("advise");
+  }
   return run;
 }
 

@@ -31,6 +31,7 @@ struct Input {
   Moments moments;  ///< of the solid; of the triangles as they came where only_crossings
   RepairReport repair;
   std::vector<std::string> notes;  ///< what was odd about the file, and what looks like a mistake
+  StageSeconds stage_seconds;      ///< read and repair
 };
 
 /// Told what each stage made, for those who want to look: a name such as "2-solid" and the mesh.

@@ -90,8 +90,10 @@ void add_stand_options(CLI::App* app, Arguments& a) {
   app->add_option("-o,--output", a.output, "3MF, STL, OBJ or PLY file; - writes an STL to standard output")->required();
   static const std::map<std::string, CarveAim> aims{
       {"least", CarveAim::least}, {"light", CarveAim::light}, {"stable", CarveAim::stable}};
-  app->add_option("--aim", a.stand.aim, "least: remove least; light: remove most; stable: the largest tip angle")
-      ->transform(CLI::CheckedTransformer(aims).description("least|light|stable"));
+  app->add_option_function<std::string>(
+         "--aim", [&a](const std::string& name) { a.stand.aim = aims.at(name); },
+         "least: remove least; light: remove most; stable: the largest tip angle (default least)")
+      ->check(CLI::IsMember(aims));
   static const std::map<std::string, double> walls{{"fdm", 1.6}, {"sla", 2}, {"powder", 1.5}, {"binder", 3}};
   app->add_option_function<std::string>(
          "--process", [&a](const std::string& name) { a.stand.wall_mm = walls.at(name); },

@@ -4,10 +4,12 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <span>
 
+#include "aplomb/core/stage_clock.h"
 #include "aplomb/core/threads.h"
 #include "aplomb/io/write_mesh.h"
 #include "aplomb/report/json.h"
@@ -76,10 +78,12 @@ StageViewer dump_into(const std::filesystem::path& folder) {
   };
 }
 
+/// Of this process, or of the largest child that repaired something, whichever took more.
 double peak_memory_mb() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024;
+  rusage own{}, children{};
+  getrusage(RUSAGE_SELF, &own);
+  getrusage(RUSAGE_CHILDREN, &children);
+  return static_cast<double>(std::max(own.ru_maxrss, children.ru_maxrss)) / 1024;
 }
 
 /// Completes the report with what only the program knows, and writes it where it was asked for.
@@ -107,20 +111,20 @@ Result<Report> write_and_measure(const StandRun& made, const Arguments& a, const
   return report;
 }
 
-int run_stand(const Arguments& a, const Input& input, double load_seconds, const Job& job) {
+int run_stand(const Arguments& a, const Input& input, const Job& job) {
   auto made = stand(input, a.stand, job.part(0, 0.8), dump_into(a.dump));
   if (!made) return report_error(made.error());
   Report report = made->report;
   const bool writes = made->shell && (report.outcome != Outcome::best_effort || a.stand.best_effort);
-  const auto before_writing = std::chrono::steady_clock::now();
   if (writes) {
+    StageSeconds seconds = made->report.stage_seconds;
+    StageClock clock(seconds);
     auto measured = write_and_measure(*made, a, job.part(0.8, 1));
     if (!measured) return report_error(measured.error());
+    clock.lap("write");
     report = std::move(*measured);
+    report.stage_seconds = std::move(seconds);
   }
-  report.stage_seconds.insert(report.stage_seconds.begin(), {"load", load_seconds});
-  report.stage_seconds.emplace_back(
-      "write", std::chrono::duration<double>(std::chrono::steady_clock::now() - before_writing).count());
   if (const auto published = publish(report, a); !published) return report_error(published.error());
   return report.outcome == Outcome::best_effort ? Exit::cannot_stand : Exit::stands;
 }
@@ -134,17 +138,14 @@ int run(const Arguments& arguments) {
   const ThreadLimit limit(a.threads);
   ProgressLine progress(!a.quiet);
   const Job job = progress.job();
-  const auto start = std::chrono::steady_clock::now();
   const auto input = load_solid(a.model, a.input, job.part(0, 0.3), dump_into(a.dump));
   if (!input) return report_error(input.error());
   const auto contacts = contacts_of(a.contacts, input->solid.box().size().z);
   if (!contacts) return report_error(contacts.error());
   a.stand.pose.contacts = *contacts;
-  const double load_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (a.command == Command::stand) return run_stand(a, *input, load_seconds, job.part(0.3, 1));
+  if (a.command == Command::stand) return run_stand(a, *input, job.part(0.3, 1));
   auto report = check(*input, a.stand, job.part(0.3, 1));
   if (!report) return report_error(report.error());
-  report->stage_seconds.emplace_back("load", load_seconds);
   if (const auto published = publish(*report, a); !published) return report_error(published.error());
   return report->outcome == Outcome::falls ? Exit::cannot_stand : Exit::stands;
 }

@@ -15,6 +15,10 @@ constexpr double search_tolerance = 1e-7;  // of t
 constexpr double t_tolerance = 1e-5;       // by which the void as cut may miss required_t: 0.0006 degree
 constexpr int most_rounds = 6;
 
+BestBody best_body(const Moments& solid, const MomentTree& tree) {
+  return [&solid, &tree](const AffineForm& kept) { return solid - tree.not_positive_part(kept); };
+}
+
 /// One carving of one volume; another round follows when parts were dropped.
 class Carver {
  public:
@@ -24,8 +28,7 @@ class Carver {
         problem_(problem),
         options_(options),
         tree_(carvable_blocks(volume), volume.frame()),
-        search_(
-            problem, [this](const AffineForm& kept) { return solid_ - tree_.not_positive_part(kept); }, solid) {}
+        search_(problem, best_body(solid, tree_), solid) {}
 
   Result<VoidCut> choose(Carving& carving, const Job& job) {
     const auto stable = search_.most_stable(search_tolerance, job.part(0, 0.3));
@@ -103,6 +106,15 @@ Result<Carving> carve(const SolidVolume& volume, const Moments& solid, const Bal
   carving.reaches = options.aim == CarveAim::stable || carving.t >= options.required_t - t_tolerance;
   if (!job.report(1, "carve")) return cancelled();
   return carving;
+}
+
+Result<double> carving_bound(const SolidVolume& volume, const Moments& solid, const BalanceProblem& problem,
+                             const Job& job) {
+  const MomentTree tree(carvable_blocks(volume), volume.frame());
+  PlaneSearch search(problem, best_body(solid, tree), solid);
+  const auto stable = search.most_stable(search_tolerance, job);
+  if (!stable) return tl::unexpected(stable.error());
+  return stable->bound;
 }
 
 }  // namespace aplomb

@@ -57,4 +57,8 @@ struct Carving {
 Result<Carving> carve(const SolidVolume& volume, const Moments& solid, const BalanceProblem& problem,
                       const CarveOptions& options, const Job& job = {});
 
+/// The bound on t that carve() would certify, without making a void.
+Result<double> carving_bound(const SolidVolume& volume, const Moments& solid, const BalanceProblem& problem,
+                             const Job& job = {});
+
 }  // namespace aplomb

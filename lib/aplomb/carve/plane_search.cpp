@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "aplomb/adapters/glpk/linear_program.h"
 
@@ -27,6 +28,7 @@ PlaneSearch::PlaneSearch(BalanceProblem problem, BestBody best_body, const Momen
   for (const BalanceRow& row : problem_.rows) {
     const double weight = row.b(uncarved) / scale_;
     row_weights_.push_back(weight > 0 ? weight : 1);
+    least_b_.push_back(std::max(0.0, row.b(best_body_(-1 * row.b)) / scale_));
   }
   points_.push_back(uncarved);
 }
@@ -47,22 +49,12 @@ Moments PlaneSearch::try_plane(const AffineForm& kept) {
   return points_.back();
 }
 
-/// The least t at which these weights prove that no body holds all rows: the zero of the convex, falling function
-/// F(t) = max over bodies of sum_i y_i g_i(body, t), approached by Newton's method and then passed.
-double PlaneSearch::certified_bound(const std::vector<double>& weights, double t) {
-  double step = 1e-12;
-  for (int i = 0; i < 60; ++i) {
-    const AffineForm form = combination(weights, t);
-    const Moments body = best_body_(form);
-    const double value = form(body) / scale_;
-    if (value <= 0) return t;
-    double slope = 0;
-    for (std::size_t r = 0; r < weights.size(); ++r) slope += weights[r] * problem_.rows[r].b(body) / scale_;
-    if (!(slope > 0)) return std::numeric_limits<double>::infinity();
-    t += value / slope + step;
-    step *= 2;
-  }
-  return std::numeric_limits<double>::infinity();
+/// No body holds all rows beyond this t. For a body r and the weighted rows A - t B,
+/// A(r) - t' B(r) <= value - (t' - t) B(r), and B(r) is at least the sum of the weighted least_b_.
+double PlaneSearch::certified_bound(const std::vector<double>& weights, double t, double value) const {
+  if (value <= 0) return t;
+  const double least = std::inner_product(weights.begin(), weights.end(), least_b_.begin(), 0.0);
+  return least > 0 ? t + value / least : std::numeric_limits<double>::infinity();
 }
 
 Result<PlaneChoice> PlaneSearch::most_stable(double tolerance, const Job& job) {
@@ -95,7 +87,7 @@ Result<PlaneChoice> PlaneSearch::most_stable(double tolerance, const Job& job) {
     const Moments body = try_plane(kept);
     if (const double reached = largest_t(problem_, body); reached > best.t)
       best.kept = kept, best.body = body, best.t = reached;
-    best.bound = std::min(best.bound, certified_bound(weights, t));
+    best.bound = std::min(best.bound, certified_bound(weights, t, kept(body) / scale_));
     const double promised = largest_t(problem_, mixture);
     t = solution->value >= 0 && std::isfinite(promised) ? std::max(t, promised) : t + solution->value;
     t = std::min(t, best.bound);

@@ -49,13 +49,14 @@ class PlaneSearch {
   double row_value(const BalanceRow& row, double t, const Moments& body) const;
   AffineForm combination(const std::vector<double>& weights, double t) const;
   Moments try_plane(const AffineForm& kept);
-  double certified_bound(const std::vector<double>& weights, double t);
+  double certified_bound(const std::vector<double>& weights, double t, double value) const;
 
   BalanceProblem problem_;
   BestBody best_body_;
   double scale_ = 1;  // mm4: makes row values about 1
   double volume_mm3_ = 1;
   std::vector<double> row_weights_;  // b of the uncarved body, scaled
+  std::vector<double> least_b_;      // of any body, scaled
   std::vector<Moments> points_;
   int planes_ = 0;
 };

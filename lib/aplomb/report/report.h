@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "aplomb/balance/standing.h"
+#include "aplomb/core/stage_clock.h"
 
 namespace aplomb {
 
@@ -51,7 +52,7 @@ struct Report {
   std::optional<MeshFigures> mesh;
   std::vector<std::string> repair;  ///< what was wrong with the input and what was decided, a sentence each
   std::vector<std::string> hints;   ///< what looks like a mistake, or what would help, a sentence each
-  std::vector<std::pair<std::string, double>> stage_seconds;
+  StageSeconds stage_seconds;
   double peak_memory_mb = 0;
   std::vector<std::pair<std::string, std::variant<bool, double, std::string>>> options;
 };
