@@ -120,7 +120,7 @@ std::optional<double> tip_with_half_wall(const Input& input, const BalanceProble
   VolumeOptions coarse{options.wall_mm / 2, options.wall_mm / 4, 0, options.memory_bytes};
   const auto volume = voxelize(input.solid, coarse, job.part(0, 0.7));
   if (!volume) return std::nullopt;
-  const auto bound_t = carving_bound(*volume, input.moments, problem, job.part(0.7, 1));
+  const auto bound_t = carving_bound(*volume, input.moments, problem, 1e-4, job.part(0.7, 1));
   return bound_t ? std::optional(std::atan(*bound_t)) : std::nullopt;
 }
 

@@ -109,10 +109,10 @@ Result<Carving> carve(const SolidVolume& volume, const Moments& solid, const Bal
 }
 
 Result<double> carving_bound(const SolidVolume& volume, const Moments& solid, const BalanceProblem& problem,
-                             const Job& job) {
+                             double tolerance, const Job& job) {
   const MomentTree tree(carvable_blocks(volume), volume.frame());
   PlaneSearch search(problem, best_body(solid, tree), solid);
-  const auto stable = search.most_stable(search_tolerance, job);
+  const auto stable = search.most_stable(tolerance, job);
   if (!stable) return tl::unexpected(stable.error());
   return stable->bound;
 }

@@ -57,8 +57,8 @@ struct Carving {
 Result<Carving> carve(const SolidVolume& volume, const Moments& solid, const BalanceProblem& problem,
                       const CarveOptions& options, const Job& job = {});
 
-/// The bound on t that carve() would certify, without making a void.
+/// The bound on t that carve() would certify, to a tolerance and without making a void.
 Result<double> carving_bound(const SolidVolume& volume, const Moments& solid, const BalanceProblem& problem,
-                             const Job& job = {});
+                             double tolerance, const Job& job = {});
 
 }  // namespace aplomb
