@@ -22,10 +22,8 @@ class StageClock {
     const auto now = std::chrono::steady_clock::now();
     const double passed = std::chrono::duration<double>(now - std::exchange(start_, now)).count();
     const auto known = std::find_if(seconds_.begin(), seconds_.end(), [&](const auto& s) { return s.first == stage; });
-    if (known == seconds_.end())
-      seconds_.emplace_back(stage, passed);
-    else
-      known->second += passed;
+    if (known == seconds_.end()) seconds_.emplace_back(stage, passed);
+    else known->second += passed;
   }
 
  private:

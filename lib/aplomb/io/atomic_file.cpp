@@ -134,7 +134,8 @@ Result<void> write_file_atomically(const fs::path& target, std::span<const std::
   const bool exists = ::stat(path->c_str(), &status) == 0;
   if (!exists && errno != ENOENT) return cannot_write(target, reason_of(errno));
   if (exists && S_ISDIR(status.st_mode)) return cannot_write(target, "it is a directory; name a file in it");
-  if (exists && ::faccessat(AT_FDCWD, path->c_str(), W_OK, AT_EACCESS) != 0) return cannot_write(target, reason_of(errno));
+  if (exists && ::faccessat(AT_FDCWD, path->c_str(), W_OK, AT_EACCESS) != 0)
+    return cannot_write(target, reason_of(errno));
   if (exists && !S_ISREG(status.st_mode)) return write_straight(*path, bytes);
   const fs::path folder = fs::absolute(*path).parent_path();
   std::error_code ignored;

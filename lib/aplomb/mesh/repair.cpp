@@ -91,9 +91,12 @@ class Repair {
     Result<bool> solid = is_solid(mesh_, 0.1, 0.15);
     if (!solid || *solid) return solid;
     if (defects_.nonmanifold_edges + defects_.nonmanifold_vertices > 0) {
-      say("The surface was cut apart at " + counted(defects_.nonmanifold_edges, "edge", "edges") +
-          " of more than two triangles and " + counted(defects_.nonmanifold_vertices, "vertex", "vertices") +
-          " where parts only touched.");
+      if (defects_.nonmanifold_edges > 0)
+        say("The surface was cut apart at " + counted(defects_.nonmanifold_edges, "edge", "edges") +
+            " of more than two triangles.");
+      if (defects_.nonmanifold_vertices > 0)
+        say("The surface was cut apart at " + counted(defects_.nonmanifold_vertices, "vertex", "vertices") +
+            " where parts only touched.");
       mesh_ = detail::cut_apart(mesh_);
       solid = is_solid(mesh_, 0.1, 0.15);
       if (!solid) return solid;
