@@ -69,7 +69,8 @@ TEST(Cage, CarriesTheSolidsMomentsAndWhatOfItMayBeCarved) {
 
 TEST(Cage, DoublesTheCubesThatTwoLegsShare) {
   const double side = 20, gap = 3;
-  const TriangleMesh legs = joined(box({0, 0, 0}, {side, side, 60}), box({side + gap, 0, 0}, {2 * side + gap, side, 60}));
+  const TriangleMesh legs =
+      joined(box({0, 0, 0}, {side, side, 60}), box({side + gap, 0, 0}, {2 * side + gap, side, 60}));
   const Cage apart = cage_of(solid_of(legs), 60000);  // pieces of 0.93 mm
   std::set<std::uint32_t> left, right;
   for (const SolidSample& s : apart.samples()) {

@@ -22,9 +22,7 @@ constexpr double piece_reach = 0.9;  // of a piece's edge: more than from its ce
 /// Corners of a cube that Kuhn's tetrahedron of an order of the axes runs through, as bits.
 struct Path {
   std::array<int, 3> axes;
-  std::array<int, 4> corners() const {
-    return {0, 1 << axes[0], 1 << axes[0] | 1 << axes[1], 7};
-  }
+  std::array<int, 4> corners() const { return {0, 1 << axes[0], 1 << axes[0] | 1 << axes[1], 7}; }
   bool right_handed() const { return (axes[1] - axes[0] + 3) % 3 == 1; }
 };
 constexpr std::array<Path, 6> paths{{{{0, 1, 2}}, {{0, 2, 1}}, {{1, 0, 2}}, {{1, 2, 0}}, {{2, 0, 1}}, {{2, 1, 0}}}};
@@ -106,7 +104,8 @@ class CageBuilder {
       for (int n = 0; n < Cage::pieces; ++n)
         for (const int step : {1, Cage::fine, Cage::fine * Cage::fine}) {
           const bool on_edge = n / step % Cage::fine == Cage::fine - 1;
-          if (!on_edge && cubes_[b].held(n) && cubes_[b].held(n + step)) sets.join(std::uint32_t(n), std::uint32_t(n + step));
+          if (!on_edge && cubes_[b].held(n) && cubes_[b].held(n + step))
+            sets.join(std::uint32_t(n), std::uint32_t(n + step));
         }
       for (int n = 0; n < Cage::pieces; ++n) {
         if (!cubes_[b].held(n)) continue;
@@ -171,8 +170,8 @@ class CageBuilder {
  private:
   struct Cube {
     Cage::Index index{};
-    double reach_mm = 0;                 // how far outside the solid a piece's centre may lie
-    std::vector<float> depths_mm;        // per piece, at its centre
+    double reach_mm = 0;           // how far outside the solid a piece's centre may lie
+    std::vector<float> depths_mm;  // per piece, at its centre
     bool held(int piece) const { return double{depths_mm[static_cast<std::size_t>(piece)]} > -reach_mm; }
   };
 
@@ -206,7 +205,8 @@ class CageBuilder {
   }
 
   Vec3 corner_mm(const Cage::Index& cube, int corner) const {
-    return cage_.origin_mm_ + cage_.cube_mm() * Vec3{double(cube[0] + (corner & 1)), double(cube[1] + (corner >> 1 & 1)),
+    return cage_.origin_mm_ + cage_.cube_mm() * Vec3{double(cube[0] + (corner & 1)),
+                                                     double(cube[1] + (corner >> 1 & 1)),
                                                      double(cube[2] + (corner >> 2 & 1))};
   }
 

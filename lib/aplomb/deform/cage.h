@@ -17,10 +17,10 @@ struct CageOptions {
   std::size_t samples = 60000;  ///< >= 1000: about as many pieces of the solid are carried
 };
 
-/// A coarse tetrahedral mesh around a solid, and what it carries: cubes of a lattice, six tetrahedra each (Kuhn's split).
-/// A cube that several parts of the solid pass through stands there once for each, and cubes are joined only where the
-/// solid runs on (virtual nodes: Molino, Bao and Fedkiw 2004), so that legs near one another move apart. Every
-/// tetrahedron has the same good shape, whatever the solid.
+/// A coarse tetrahedral mesh around a solid, and what it carries: cubes of a lattice, six tetrahedra each (Kuhn's
+/// split). A cube that several parts of the solid pass through stands there once for each, and cubes are joined only
+/// where the solid runs on (virtual nodes: Molino, Bao and Fedkiw 2004), so that legs near one another move apart.
+/// Every tetrahedron has the same good shape, whatever the solid.
 class Cage {
  public:
   static constexpr int fine = 4;  ///< pieces along a cube's edge: parts nearer than two pieces count as one
@@ -45,10 +45,10 @@ class Cage {
 
   Vec3 origin_mm_;
   double fine_mm_ = 1;
-  Index size_{};                             // in cubes
-  std::vector<std::uint32_t> block_;         // per cube: its block of pieces in copies_, or none
-  std::vector<std::uint32_t> copies_;        // per piece: the copy of the cube that holds it, or none
-  TetMesh mesh_;                             // copy c has the tetrahedra 6 c to 6 c + 5
+  Index size_{};                       // in cubes
+  std::vector<std::uint32_t> block_;   // per cube: its block of pieces in copies_, or none
+  std::vector<std::uint32_t> copies_;  // per piece: the copy of the cube that holds it, or none
+  TetMesh mesh_;                       // copy c has the tetrahedra 6 c to 6 c + 5
   std::vector<double> solid_share_;
   std::vector<SolidSample> samples_;
 };

@@ -47,8 +47,8 @@ Result<SurfaceMotion> SurfaceMotion::make(const Cage& cage, const TriangleMesh& 
   for (const Vec3& vertex : surface.vertices) {
     const auto point = cage.embed(vertex);
     if (!point)
-      return fail(ErrorCode::internal, fmt::format("the cage does not hold the vertex ({:.6g}, {:.6g}, {:.6g})", vertex.x,
-                                                   vertex.y, vertex.z));
+      return fail(ErrorCode::internal, fmt::format("the cage does not hold the vertex ({:.6g}, {:.6g}, {:.6g})",
+                                                   vertex.x, vertex.y, vertex.z));
     motion.points_.push_back(*point);
   }
   return motion;
