@@ -56,7 +56,8 @@ TEST(TrimBase, ClosesACutThroughSeveralLegsAndRings) {
   const auto trimmed = trim_base(ring, -2);
   ASSERT_TRUE(trimmed) << trimmed.error().message;
   const double half = std::sqrt(64.0 - 4);
-  EXPECT_NEAR(area_at(trimmed->mesh(), trimmed->box().min.z), M_PI * (std::pow(30 + half, 2) - std::pow(30 - half, 2)), 25);
+  EXPECT_NEAR(area_at(trimmed->mesh(), trimmed->box().min.z), M_PI * (std::pow(30 + half, 2) - std::pow(30 - half, 2)),
+              25);
   const SolidMesh legs = solid_of(joined(box({0, 0, 0}, {10, 10, 50}), box({20, 0, 0}, {30, 10, 50})));
   const auto shorter = trim_base(legs, 5);
   ASSERT_TRUE(shorter) << shorter.error().message;

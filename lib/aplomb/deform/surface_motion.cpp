@@ -20,15 +20,15 @@ Mat3 inverse(const Mat3& m) {
 }
 
 /// The mean deformation gradient at every vertex; the identity at those that stayed.
-std::vector<Mat3> vertex_gradients(const Cage& cage, const std::vector<Vec3>& moved) {
-  const TetMesh& mesh = cage.mesh();
+std::vector<Mat3> vertex_gradients(const TetMesh& mesh, const std::vector<double>& solid_share,
+                                   const std::vector<Vec3>& moved) {
   std::vector<Mat3> sums(mesh.vertices.size(), Mat3{{{{}, {}, {}}}});
   std::vector<double> weights(mesh.vertices.size());
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
     const Mat3 f = edges_of(mesh.tets[t], moved) * inverse(edges_of(mesh.tets[t], mesh.vertices));
     for (const std::uint32_t v : mesh.tets[t]) {
-      for (int row = 0; row < 3; ++row) sums[v].rows[row] += cage.solid_share()[t] * f.rows[row];
-      weights[v] += cage.solid_share()[t];
+      for (int row = 0; row < 3; ++row) sums[v].rows[row] += solid_share[t] * f.rows[row];
+      weights[v] += solid_share[t];
     }
   }
   for (std::size_t v = 0; v < sums.size(); ++v) {
@@ -42,7 +42,10 @@ std::vector<Mat3> vertex_gradients(const Cage& cage, const std::vector<Vec3>& mo
 }  // namespace
 
 Result<SurfaceMotion> SurfaceMotion::make(const Cage& cage, const TriangleMesh& surface) {
-  SurfaceMotion motion(cage, surface);
+  SurfaceMotion motion;
+  motion.rest_ = cage.mesh();
+  motion.solid_share_ = cage.solid_share();
+  motion.surface_ = surface;
   motion.points_.reserve(surface.vertices.size());
   for (const Vec3& vertex : surface.vertices) {
     const auto point = cage.embed(vertex);
@@ -55,9 +58,9 @@ Result<SurfaceMotion> SurfaceMotion::make(const Cage& cage, const TriangleMesh& 
 }
 
 TriangleMesh SurfaceMotion::moved(const std::vector<Vec3>& moved_mm) const {
-  const TetMesh& mesh = cage_.mesh();
+  const TetMesh& mesh = rest_;
   assert(moved_mm.size() == mesh.vertices.size());
-  const std::vector<Mat3> gradients = vertex_gradients(cage_, moved_mm);
+  const std::vector<Mat3> gradients = vertex_gradients(mesh, solid_share_, moved_mm);
   TriangleMesh out = surface_;
   for (std::size_t n = 0; n < points_.size(); ++n) {
     const TetMesh::Tet& tet = mesh.tets[points_[n].tet];

@@ -23,10 +23,9 @@ class SurfaceMotion {
   TriangleMesh moved(const std::vector<Vec3>& moved_mm) const;
 
  private:
-  SurfaceMotion(const Cage& cage, const TriangleMesh& surface) : cage_(cage), surface_(surface) {}
-
-  const Cage& cage_;
-  const TriangleMesh& surface_;
+  TetMesh rest_;
+  std::vector<double> solid_share_;
+  TriangleMesh surface_;
   std::vector<EmbeddedPoint> points_;
 };
 

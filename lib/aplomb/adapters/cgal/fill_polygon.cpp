@@ -18,8 +18,9 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Vertex = CGAL::Triangulation_vertex_base_with_info_2<std::uint32_t, Kernel>;
 using Face =
     CGAL::Constrained_triangulation_face_base_2<Kernel, CGAL::Triangulation_face_base_with_info_2<int, Kernel>>;
-using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<
-    Kernel, CGAL::Triangulation_data_structure_2<Vertex, Face>, CGAL::No_constraint_intersection_requiring_constructions_tag>;
+using Triangulation =
+    CGAL::Constrained_Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<Vertex, Face>,
+                                               CGAL::No_constraint_intersection_requiring_constructions_tag>;
 
 /// How many loops lie around every face, from the outside in.
 void count_loops(Triangulation& triangulation) {

@@ -1,0 +1,115 @@
+#include "aplomb/deform/bend.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include "aplomb/deform/surface_motion.h"
+
+namespace aplomb {
+namespace {
+
+constexpr double kept_stiffness = 1000;
+constexpr std::array<double, 6> path_ratios{1, 0.9, 0.75, 0.5, 0.25, 0.1};
+
+double lowest_mm(const TriangleMesh& mesh, Vec3 up) {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const Vec3& v : mesh.vertices) lowest = std::min(lowest, dot(up, v));
+  return lowest;
+}
+
+Vec3 middle_of(const TetMesh& mesh, const TetMesh::Tet& t) {
+  return 0.25 * (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]] + mesh.vertices[t[3]]);
+}
+
+std::vector<double> stiffnesses(const TetMesh& mesh, const std::vector<KeptBall>& kept, double reach_mm) {
+  std::vector<double> stiffness(mesh.tets.size(), 1);
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t)
+    for (const KeptBall& ball : kept)
+      if (norm(middle_of(mesh, mesh.tets[t]) - ball.center_mm) <= ball.radius_mm + reach_mm)
+        stiffness[t] = kept_stiffness;
+  return stiffness;
+}
+
+/// Every cage vertex that carries a held vertex of the surface.
+std::vector<bool> fixed_vertices(const Cage& cage, const SolidMesh& solid, const std::vector<bool>& held) {
+  std::vector<bool> fixed(cage.mesh().vertices.size());
+  for (std::size_t v = 0; v < held.size(); ++v)
+    if (held[v])
+      if (const auto point = cage.embed(solid.mesh().vertices[v]))
+        for (const std::uint32_t corner : cage.mesh().tets[point->tet]) fixed[corner] = true;
+  return fixed;
+}
+
+std::vector<Vec3> between(const std::vector<Vec3>& from, const std::vector<Vec3>& to, double ratio) {
+  std::vector<Vec3> out;
+  out.reserve(from.size());
+  for (std::size_t v = 0; v < from.size(); ++v) out.push_back(ratio == 1 ? to[v] : from[v] + ratio * (to[v] - from[v]));
+  return out;
+}
+
+/// The ground is soft to the cage: what is left to sink is put on the plate.
+void lift_onto(TriangleMesh& mesh, const GroundPlane& ground) {
+  for (Vec3& v : mesh.vertices)
+    if (const double height = dot(ground.up, v) - ground.plate_mm; height < 0) v += -height * ground.up;
+}
+
+}  // namespace
+
+struct Bender::Parts {
+  SolidMesh solid;
+  Cage cage;
+  SurfaceMotion motion;
+  CageProblem problem;
+};
+
+std::vector<bool> vertices_near_plate(const TriangleMesh& mesh, Vec3 up, double height_mm) {
+  const double level = lowest_mm(mesh, up) + height_mm;
+  std::vector<bool> near(mesh.vertices.size());
+  for (std::size_t v = 0; v < near.size(); ++v) near[v] = dot(up, mesh.vertices[v]) <= level;
+  return near;
+}
+
+Result<Bender> Bender::make(const SolidMesh& solid, const BendProblem& problem, const CageOptions& options,
+                            const Job& job) {
+  assert(problem.held.size() == solid.mesh().vertices.size());
+  auto cage = build_cage(solid, options, job);
+  if (!cage) return tl::unexpected(cage.error());
+  auto motion = SurfaceMotion::make(*cage, solid.mesh());
+  if (!motion) return tl::unexpected(motion.error());
+  CageProblem bending;
+  bending.rest = cage->mesh();
+  bending.solid_share = cage->solid_share();
+  bending.stiffness = stiffnesses(cage->mesh(), problem.kept, 0.5 * cage->cube_mm());
+  bending.fixed = fixed_vertices(*cage, solid, problem.held);
+  bending.samples = cage->samples();
+  bending.balance = problem.balance;
+  bending.grounds = problem.grounds;
+  return Bender(std::make_shared<const Parts>(Parts{solid, std::move(*cage), std::move(*motion), std::move(bending)}));
+}
+
+Result<Bent> Bender::bend(double required_t, const DeformOptions& options, const Job& job) const {
+  CageProblem problem = parts_->problem;
+  problem.required_t = required_t;
+  auto cage = deform_cage(problem, options, {}, job.part(0, 0.8));
+  if (!cage) return tl::unexpected(cage.error());
+  for (const double ratio : path_ratios) {
+    TriangleMesh mesh = parts_->motion.moved(between(problem.rest.vertices, cage->vertices, ratio));
+    for (const GroundPlane& ground : problem.grounds) lift_onto(mesh, ground);
+    auto checked = check_solid(mesh, job.part(0.8, 1));
+    if (!checked) return tl::unexpected(checked.error());
+    if (!checked->solid) continue;
+    Bent bent{std::move(*checked->solid), std::move(*cage), ratio, 0, 0};
+    const auto &from = parts_->solid.mesh().vertices, &to = bent.solid.mesh().vertices;
+    for (std::size_t v = 0; v < from.size(); ++v) {
+      const double by = norm(to[v] - from[v]);
+      bent.mean_mm += by / static_cast<double>(from.size());
+      bent.max_mm = std::max(bent.max_mm, by);
+    }
+    return bent;
+  }
+  return fail(ErrorCode::third_party, "the surface crosses itself however little it is bent");
+}
+
+}  // namespace aplomb

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "aplomb/balance/balance_problem.h"
+#include "aplomb/core/error.h"
+#include "aplomb/core/job.h"
+#include "aplomb/deform/cage.h"
+#include "aplomb/deform/deform_cage.h"
+#include "aplomb/mesh/solid_mesh.h"
+
+namespace aplomb {
+
+/// A region that keeps its shape, such as a face.
+struct KeptBall {
+  Vec3 center_mm;
+  double radius_mm = 0;
+};
+
+/// What a solid is bent for, and what of it stays.
+struct BendProblem {
+  BalanceProblem balance;            ///< the rows of every pose
+  std::vector<bool> held;            ///< per vertex of the solid: contacts and attachments, which do not move
+  std::vector<GroundPlane> grounds;  ///< the plates of the poses
+  std::vector<KeptBall> kept;
+};
+
+/// The vertices up to height_mm above the plane through the lowest point: what a standing pose holds.
+std::vector<bool> vertices_near_plate(const TriangleMesh& mesh, Vec3 up, double height_mm);
+
+struct Bent {
+  SolidMesh solid;           ///< triangles and order of vertices as they were
+  CageDeformation cage;      ///< what the cage does; of the path that was found
+  double path_ratio = 1;     ///< how far along it the surface went: less than 1 where it would have crossed itself
+  double mean_mm = 0;        ///< displacement of the surface's vertices
+  double max_mm = 0;
+};
+
+/// Bends the surface of a solid, carved as well as can be, as little as makes it balance (deform_cage()).
+class Bender {
+ public:
+  /// \pre problem.held has an entry per vertex; the rows are those of the solid as it is.
+  /// \return what build_cage() and SurfaceMotion::make() return.
+  static Result<Bender> make(const SolidMesh& solid, const BendProblem& problem, const CageOptions& options,
+                             const Job& job = {});
+
+  /// The solid bent until every row holds at required_t, or as far as the options allow. No point of the surface ends
+  /// below a plate.
+  ///
+  /// \return cancelled; third_party when even a small bend makes the surface cross itself.
+  Result<Bent> bend(double required_t, const DeformOptions& options, const Job& job = {}) const;
+
+ private:
+  struct Parts;
+  explicit Bender(std::shared_ptr<const Parts> parts) : parts_(std::move(parts)) {}
+  std::shared_ptr<const Parts> parts_;
+};
+
+}  // namespace aplomb
