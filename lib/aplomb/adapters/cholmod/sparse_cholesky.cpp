@@ -18,6 +18,10 @@ struct SparseCholesky::Impl {
     common.print = 0;
     common.supernodal = CHOLMOD_AUTO;
     common.quick_return_if_not_posdef = true;
+    common.nmethods = 2;  // the better of both: nested dissection takes half the time of a fat solid's factorisation
+    common.method[0].ordering = CHOLMOD_AMD;
+    common.method[1].ordering = CHOLMOD_METIS;
+    common.postorder = true;
   }
   ~Impl() {
     cholmod_free_factor(&factor, &common);
