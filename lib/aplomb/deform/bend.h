@@ -30,10 +30,10 @@ struct BendProblem {
 std::vector<bool> vertices_near_plate(const TriangleMesh& mesh, Vec3 up, double height_mm);
 
 struct Bent {
-  SolidMesh solid;           ///< triangles and order of vertices as they were
-  CageDeformation cage;      ///< what the cage does; of the path that was found
-  double path_ratio = 1;     ///< how far along it the surface went: less than 1 where it would have crossed itself
-  double mean_mm = 0;        ///< displacement of the surface's vertices
+  SolidMesh solid;        ///< triangles and order of vertices as they were
+  CageDeformation cage;   ///< what the cage does; of the path that was found
+  double path_ratio = 1;  ///< how far along it the surface went: less than 1 where it would have crossed itself
+  double mean_mm = 0;     ///< displacement of the surface's vertices
   double max_mm = 0;
 };
 
