@@ -21,6 +21,7 @@ namespace {
 
 constexpr double t_margin = 1e-6;         // aimed at beyond required_t, so that the end is not short of it by rounding
 constexpr double enough_decrease = 1e-4;  // of what the model promises (Armijo)
+constexpr double enough_gain = 3e-4;      // of the merit: a step that promises less is the last
 constexpr int most_halvings = 12;
 constexpr int patience = 6;  // steps that may gain nothing
 
@@ -79,18 +80,18 @@ class CageDeformer {
       if (!factors->factorise(energy_.hessian(now_.vertices)))
         return fail(ErrorCode::third_party, "the system of the deformation could not be factorised");
       const std::vector<Vec3> gradient = energy_.gradient(now_.vertices);
-      const NewtonStep step = choose_step(model(*factors, gradient));
-      auto next = search(step, gradient);
+      const NewtonStep step = choose_step(model(*factors, now_, gradient));
+      auto next = search(step, gradient, *factors);
       if (!next) return tl::unexpected(next.error());
       if (!*next) break;
       const double before = merit(now_), t_before = now_.carved.t;
       now_ = std::move(**next);
       if (listener_) listener_(now_.vertices, now_.carved.t);
-      if (longest_mm(step.displacement) <= options_.settled_mm && settled(step, t_before)) {
+      if (settled(step, t_before)) {
         ++iterations_;
         break;
       }
-      const bool gained = before - merit(now_) > 1e-6 * std::abs(before);
+      const bool gained = before - merit(now_) > enough_gain * before;
       idle = gained ? 0 : idle + 1;
     }
     if (!job.report(1, "deform")) return cancelled();
@@ -105,14 +106,16 @@ class CageDeformer {
   }
   bool reached() const { return now_.carved.t >= problem_.required_t; }
   bool settled(const NewtonStep& step, double t_before) const {
-    return reached() || (limited_ && now_.carved.t - t_before < 1e-5 && step.t < goal_);
+    const bool small = longest_mm(step.displacement) <= options_.settled_mm || -promised_ < enough_gain * now_.energy;
+    return small && (reached() || (limited_ && now_.carved.t - t_before < 1e-5));
   }
 
-  NewtonModel model(const adapters::SparseCholesky& factors, const std::vector<Vec3>& gradient) const {
-    const auto& shares = now_.carved.shares;
+  NewtonModel model(const adapters::SparseCholesky& factors, const Iterate& at,
+                    const std::vector<Vec3>& gradient) const {
+    const auto& shares = at.carved.shares;
     const Vec3 origin = samples_.origin();
-    return {factors, energy_.free(), gradient, held_moments(problem_.rest, shapes_, shares, now_.vertices, origin),
-            moment_gradients(problem_.rest, shapes_, shares, now_.vertices, origin)};
+    return {factors, energy_.free(), gradient, held_moments(problem_.rest, shapes_, shares, at.vertices, origin),
+            moment_gradients(problem_.rest, shapes_, shares, at.vertices, origin)};
   }
 
   bool within_limit(const std::vector<Vec3>& step, double s = 1) const {
@@ -161,23 +164,51 @@ class CageDeformer {
     return step;
   }
 
+  /// Nothing when its energy is not below `most_energy`, and therefore no carving helps.
+  Result<std::optional<Iterate>> evaluate(std::vector<Vec3> vertices, double most_energy) {
+    Iterate next{std::move(vertices), 0, {}};
+    next.energy = energy_.value(next.vertices);
+    if (!(next.energy <= most_energy)) return std::optional<Iterate>{};
+    auto carved = samples_.best_carving(next.vertices);
+    if (!carved) return tl::unexpected(carved.error());
+    next.carved = std::move(*carved);
+    return std::optional(std::move(next));
+  }
+
+  /// The rows bend while the step is straight: what it is short of t for that reason, the least further step makes up
+  /// for (the second-order correction, which spares the search its small steps: Maratos 1978).
+  Result<std::optional<Iterate>> corrected(const Iterate& at, double t, const adapters::SparseCholesky& factors,
+                                           double most_energy) {
+    const NewtonStep step = model(factors, at, std::vector<Vec3>(at.vertices.size())).step(samples_.rows(), t);
+    if (longest_mm(step.displacement) > options_.most_step_mm / 4) return std::optional<Iterate>{};
+    std::vector<Vec3> vertices = moved(at.vertices, 1, step.displacement);
+    if (mean_mm(vertices) > options_.most_mean_mm) return std::optional<Iterate>{};
+    if (step_without_inversion(problem_.rest, shapes_, at.vertices, step.displacement) < 1)
+      return std::optional<Iterate>{};
+    return evaluate(std::move(vertices), most_energy);
+  }
+
   /// Backtracks until the merit falls by enough; nothing when it does not.
-  Result<std::optional<Iterate>> search(const NewtonStep& step, const std::vector<Vec3>& gradient) {
+  Result<std::optional<Iterate>> search(const NewtonStep& step, const std::vector<Vec3>& gradient,
+                                        const adapters::SparseCholesky& factors) {
     penalty_ = std::max(penalty_, 1.5 * step.price);
-    const double promised =
+    promised_ =
         std::min(0.0, inner(gradient, step.displacement) - penalty_ * (missing(now_.carved.t) - missing(step.t)));
     const double before = merit(now_);
     const double reach = step_without_inversion(problem_.rest, shapes_, now_.vertices, step.displacement);
     double s = reach < 1 ? 0.9 * reach : 1;
     for (int halving = 0; halving < most_halvings; ++halving, s /= 2) {
-      Iterate next{moved(now_.vertices, s, step.displacement), 0, {}};
-      next.energy = energy_.value(next.vertices);
-      const double most = before + enough_decrease * s * promised;
-      if (!(next.energy <= most)) continue;
-      auto carved = samples_.best_carving(next.vertices);
-      if (!carved) return tl::unexpected(carved.error());
-      next.carved = std::move(*carved);
-      if (merit(next) <= most) return std::optional(std::move(next));
+      const double most = before + enough_decrease * s * promised_;
+      auto next = evaluate(moved(now_.vertices, s, step.displacement), most);
+      if (!next) return next;
+      if (!*next) continue;
+      const double aim = now_.carved.t + s * (step.t - now_.carved.t);
+      if ((*next)->carved.t < aim) {
+        auto better = corrected(**next, aim, factors, most);
+        if (!better) return better;
+        if (*better && merit(**better) < merit(**next)) next = std::move(better);
+      }
+      if (merit(**next) <= most) return next;
     }
     return std::optional<Iterate>{};
   }
@@ -208,6 +239,7 @@ class CageDeformer {
   CarvedSamples samples_;
   double goal_;
   double penalty_ = 0;
+  double promised_ = 0;   // by how much the last step was to change the merit
   bool limited_ = false;  // the last step was as far as most_mean_mm allows
   int iterations_ = 0;
   Iterate now_;
