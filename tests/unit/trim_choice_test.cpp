@@ -25,7 +25,8 @@ TEST(TrimGains, OfABallAreThoseOfItsCircleOfContact) {
     if (gain.trim_mm == 0) continue;
     const double top = gain.trim_mm + pose.contact_height_mm;
     const double contact = std::sqrt(2 * r * top - top * top);  // the cut, and what is as low as that touches
-    const double h = gain.trim_mm, cap = M_PI * h * h * (3 * r - h) / 3, below = M_PI / 4 * h * h * (2 * r - h) * (2 * r - h);
+    const double h = gain.trim_mm, cap = M_PI * h * h * (3 * r - h) / 3,
+                 below = M_PI / 4 * h * h * (2 * r - h) * (2 * r - h);
     const double volume = 4.0 / 3 * M_PI * r * r * r - cap;
     const double height = below / volume + r - h;  // of the centre of mass above the cut
     EXPECT_NEAR(gain.t, contact / height, 0.02 * contact / height) << gain.trim_mm;

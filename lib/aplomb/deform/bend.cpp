@@ -62,6 +62,7 @@ struct Bender::Parts {
   Cage cage;
   SurfaceMotion motion;
   CageProblem problem;
+  std::vector<bool> held;
 };
 
 std::vector<bool> vertices_near_plate(const TriangleMesh& mesh, Vec3 up, double height_mm) {
@@ -86,7 +87,8 @@ Result<Bender> Bender::make(const SolidMesh& solid, const BendProblem& problem, 
   bending.samples = cage->samples();
   bending.balance = problem.balance;
   bending.grounds = problem.grounds;
-  return Bender(std::make_shared<const Parts>(Parts{solid, std::move(*cage), std::move(*motion), std::move(bending)}));
+  return Bender(std::make_shared<const Parts>(
+      Parts{solid, std::move(*cage), std::move(*motion), std::move(bending), problem.held}));
 }
 
 Result<Bent> Bender::bend(double required_t, const DeformOptions& options, const Job& job) const {
@@ -95,9 +97,10 @@ Result<Bent> Bender::bend(double required_t, const DeformOptions& options, const
   auto cage = deform_cage(problem, options, {}, job.part(0, 0.8));
   if (!cage) return tl::unexpected(cage.error());
   for (const double ratio : path_ratios) {
-    TriangleMesh mesh = parts_->motion.moved(between(problem.rest.vertices, cage->vertices, ratio));
-    for (const GroundPlane& ground : problem.grounds) lift_onto(mesh, ground);
-    auto checked = check_solid(mesh, job.part(0.8, 1));
+    auto mesh = parts_->motion.moved_apart(between(problem.rest.vertices, cage->vertices, ratio), parts_->held, job);
+    if (!mesh) return tl::unexpected(mesh.error());
+    for (const GroundPlane& ground : problem.grounds) lift_onto(*mesh, ground);
+    auto checked = check_solid(*mesh, job.part(0.8, 1));
     if (!checked) return tl::unexpected(checked.error());
     if (!checked->solid) continue;
     Bent bent{std::move(*checked->solid), std::move(*cage), ratio, 0, 0};

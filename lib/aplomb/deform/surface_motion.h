@@ -22,7 +22,19 @@ class SurfaceMotion {
   /// given.
   TriangleMesh moved(const std::vector<Vec3>& moved_mm) const;
 
+  /// The surface moved so that it does not cross itself, or as moved() has it where that cannot be had. Sheets that lie
+  /// on one another, as scans have them, may cross when bent by ever so little: round every crossing the surface moves
+  /// by one affine map, which keeps apart what was apart, within 1 % of the height, then 2, 4 and 8 %; the map fades
+  /// out to twice as far. Vertices that are `held` stay.
+  ///
+  /// \return cancelled.
+  Result<TriangleMesh> moved_apart(const std::vector<Vec3>& moved_mm, const std::vector<bool>& held,
+                                   const Job& job = {}) const;
+
  private:
+  Vec3 moved_point(std::size_t n, const std::vector<Vec3>& moved_mm, const std::vector<Mat3>& gradients) const;
+  Mat3 gradient_at(std::size_t n, const std::vector<Mat3>& gradients) const;
+
   TetMesh rest_;
   std::vector<double> solid_share_;
   TriangleMesh surface_;

@@ -16,8 +16,8 @@ struct TrimGain {
   double t = 0;  ///< the largest that a void reaches: tan(tip angle)
 };
 
-/// Estimates what cutting off the base is worth, without voxelising: the support polygon is that of the cut, exactly; the
-/// solid and what may be carved of it are the samples of one cage.
+/// Estimates what cutting off the base is worth, without voxelising: the support polygon is that of the cut, exactly;
+/// the solid and what may be carved of it are the samples of one cage.
 ///
 /// A trim of 0 is the solid as it is. Trims that leave nothing are left out.
 ///
