@@ -23,7 +23,8 @@ constexpr double t_margin = 1e-6;         // aimed at beyond required_t, so that
 constexpr double enough_decrease = 1e-4;  // of what the model promises (Armijo)
 constexpr double enough_gain = 3e-4;      // of the merit: a step that promises less is the last
 constexpr int most_halvings = 12;
-constexpr int patience = 6;  // steps that may gain nothing
+constexpr int most_trials = 4;  // of a step that runs into the ground
+constexpr int patience = 6;     // steps that may gain nothing
 
 std::vector<double> solid_weights(const CageProblem& problem, const std::vector<TetShape>& shapes) {
   std::vector<double> weights;
@@ -77,17 +78,15 @@ class CageDeformer {
     if (!factors) return tl::unexpected(factors.error());
     for (int idle = 0; iterations_ < options_.most_iterations && idle < patience; ++iterations_) {
       if (!job.report(double(iterations_) / (iterations_ + 10), "deform")) return cancelled();
-      if (!factors->factorise(energy_.hessian(now_.vertices)))
-        return fail(ErrorCode::third_party, "the system of the deformation could not be factorised");
-      const std::vector<Vec3> gradient = energy_.gradient(now_.vertices);
-      const NewtonStep step = choose_step(model(*factors, now_, gradient));
-      auto next = search(step, gradient, *factors);
+      const auto step = newton_step(*factors);
+      if (!step) return tl::unexpected(step.error());
+      auto next = search(*step, *factors);
       if (!next) return tl::unexpected(next.error());
       if (!*next) break;
       const double before = merit(now_), t_before = now_.carved.t;
       now_ = std::move(**next);
       if (listener_) listener_(now_.vertices, now_.carved.t);
-      if (settled(step, t_before)) {
+      if (settled(*step, t_before)) {
         ++iterations_;
         break;
       }
@@ -120,6 +119,18 @@ class CageDeformer {
 
   bool within_limit(const std::vector<Vec3>& step, double s = 1) const {
     return mean_mm(moved(now_.vertices, s, step)) <= options_.most_mean_mm;
+  }
+
+  /// The step of this iterate, tried again while it runs into the ground.
+  Result<NewtonStep> newton_step(adapters::SparseCholesky& factors) {
+    energy_.forget();
+    for (int trial = 1;; ++trial) {
+      if (!factors.factorise(energy_.hessian(now_.vertices)))
+        return fail(ErrorCode::third_party, "the system of the deformation could not be factorised");
+      NewtonStep step = choose_step(model(factors, now_, energy_.model_gradient(now_.vertices)));
+      if (trial == most_trials || !energy_.foresee(now_.vertices, moved(now_.vertices, 1, step.displacement)))
+        return step;
+    }
   }
 
   /// The step towards as much of the goal as the limits allow; shorter than asked only where even keeping t is too far.
@@ -189,11 +200,10 @@ class CageDeformer {
   }
 
   /// Backtracks until the merit falls by enough; nothing when it does not.
-  Result<std::optional<Iterate>> search(const NewtonStep& step, const std::vector<Vec3>& gradient,
-                                        const adapters::SparseCholesky& factors) {
+  Result<std::optional<Iterate>> search(const NewtonStep& step, const adapters::SparseCholesky& factors) {
     penalty_ = std::max(penalty_, 1.5 * step.price);
-    promised_ =
-        std::min(0.0, inner(gradient, step.displacement) - penalty_ * (missing(now_.carved.t) - missing(step.t)));
+    promised_ = std::min(0.0, inner(energy_.gradient(now_.vertices), step.displacement) -
+                                  penalty_ * (missing(now_.carved.t) - missing(step.t)));
     const double before = merit(now_);
     const double reach = step_without_inversion(problem_.rest, shapes_, now_.vertices, step.displacement);
     double s = reach < 1 ? 0.9 * reach : 1;

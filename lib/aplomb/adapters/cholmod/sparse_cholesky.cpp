@@ -16,7 +16,7 @@ struct SparseCholesky::Impl {
   Impl() {
     cholmod_start(&common);
     common.print = 0;
-    common.supernodal = CHOLMOD_AUTO;
+    common.supernodal = CHOLMOD_SUPERNODAL;
     common.quick_return_if_not_posdef = true;
     common.nmethods = 2;  // the better of both: nested dissection takes half the time of a fat solid's factorisation
     common.method[0].ordering = CHOLMOD_AMD;

@@ -93,18 +93,44 @@ double CageEnergy::value(const std::vector<Vec3>& vertices) const {
   return sum;
 }
 
-std::vector<Vec3> CageEnergy::gradient(const std::vector<Vec3>& vertices) const {
+std::vector<Vec3> CageEnergy::elastic_gradient(const std::vector<Vec3>& vertices) const {
   std::vector<Vec3> sum(vertices.size());
   for (std::size_t t = 0; t < shapes_.size(); ++t) {
     const TetMesh::Tet& tet = problem_.rest.tets[t];
     const Mat3 stress = density_.gradient(deformation_gradient(shapes_[t], tet, vertices));
     for (std::size_t k = 0; k < 4; ++k) sum[tet[k]] += weights_[t] * (stress * shapes_[t].slopes[k]);
   }
-  for (const Ground& ground : grounds_) ground.add_gradient(vertices, sum);
   for (const HandleTerm& handle : handles_) handle.add_gradient(vertices, sum);
-  for (std::size_t v = 0; v < sum.size(); ++v)
-    if (problem_.fixed[v]) sum[v] = {};
   return sum;
+}
+
+void CageEnergy::drop_fixed(std::vector<Vec3>& field) const {
+  for (std::size_t v = 0; v < field.size(); ++v)
+    if (problem_.fixed[v]) field[v] = {};
+}
+
+std::vector<Vec3> CageEnergy::gradient(const std::vector<Vec3>& vertices) const {
+  std::vector<Vec3> sum = elastic_gradient(vertices);
+  for (const Ground& ground : grounds_) ground.add_gradient(vertices, sum);
+  drop_fixed(sum);
+  return sum;
+}
+
+std::vector<Vec3> CageEnergy::model_gradient(const std::vector<Vec3>& vertices) const {
+  std::vector<Vec3> sum = elastic_gradient(vertices);
+  for (const Ground& ground : grounds_) ground.add_foreseen_gradient(vertices, sum);
+  drop_fixed(sum);
+  return sum;
+}
+
+bool CageEnergy::foresee(const std::vector<Vec3>& now, const std::vector<Vec3>& next) {
+  bool found = false;
+  for (Ground& ground : grounds_) found |= ground.foresee(now, next);
+  return found;
+}
+
+void CageEnergy::forget() {
+  for (Ground& ground : grounds_) ground.forget();
 }
 
 // A vertex has three columns. Each starts with the vertex's own block, of which the lower triangle is stored; then come

@@ -37,16 +37,25 @@ class CageEnergy {
   /// Infinity when a tetrahedron is inverted.
   double value(const std::vector<Vec3>& vertices) const;
   std::vector<Vec3> gradient(const std::vector<Vec3>& vertices) const;
+  /// The gradient of the quadratic model: that of value(), but for what is foreseen to press against the ground.
+  std::vector<Vec3> model_gradient(const std::vector<Vec3>& vertices) const;
 
   /// The Hessian by the free vertices. With `projected`, every tetrahedron's share is made positive semidefinite by
   /// leaving out its negative modes, and 1e-6 of the weight holds each vertex where it is, so that the sum is definite.
   /// The reference holds until the next call.
   const adapters::SparseSymmetric& hessian(const std::vector<Vec3>& vertices, bool projected = true);
 
+  /// Foresees which vertices a step presses against the ground, in addition, for model_gradient() and hessian(). True:
+  /// something new, and the step is worth another try.
+  bool foresee(const std::vector<Vec3>& now, const std::vector<Vec3>& next);
+  void forget();
+
   const FreeVertices& free() const { return free_; }
 
  private:
   void make_pattern();
+  std::vector<Vec3> elastic_gradient(const std::vector<Vec3>& vertices) const;
+  void drop_fixed(std::vector<Vec3>& field) const;
   void add_tet(std::size_t t, const std::vector<Vec3>& vertices, bool projected);
   void add_block(const TetMesh::Tet& corners, std::size_t k, std::size_t l, int offset, const Mat3& block);
   int block_offset(int row_vertex, int column_vertex) const;
