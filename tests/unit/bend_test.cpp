@@ -29,6 +29,7 @@ BendProblem problem_of(const SolidMesh& solid, const StandingPose& pose) {
   EXPECT_TRUE(support);
   return {standing_rows(*support, pose, RowKind::nominal),
           vertices_near_plate(solid.mesh(), pose.up, pose.contact_height_mm),
+          {},
           {{pose.up, support->frame.plate_mm}},
           {}};
 }

@@ -32,13 +32,16 @@ std::vector<double> stiffnesses(const TetMesh& mesh, const std::vector<KeptBall>
   return stiffness;
 }
 
-/// Every cage vertex that carries a held vertex of the surface.
-std::vector<bool> fixed_vertices(const Cage& cage, const SolidMesh& solid, const std::vector<bool>& held) {
+/// Every cage vertex that carries a point which does not move.
+std::vector<bool> fixed_vertices(const Cage& cage, const SolidMesh& solid, const BendProblem& problem) {
   std::vector<bool> fixed(cage.mesh().vertices.size());
-  for (std::size_t v = 0; v < held.size(); ++v)
-    if (held[v])
-      if (const auto point = cage.embed(solid.mesh().vertices[v]))
-        for (const std::uint32_t corner : cage.mesh().tets[point->tet]) fixed[corner] = true;
+  const auto fix = [&](Vec3 place) {
+    if (const auto point = cage.embed(place))
+      for (const std::uint32_t corner : cage.mesh().tets[point->tet]) fixed[corner] = true;
+  };
+  for (std::size_t v = 0; v < problem.held.size(); ++v)
+    if (problem.held[v]) fix(solid.mesh().vertices[v]);
+  for (const Vec3& anchor : problem.anchors) fix(anchor);
   return fixed;
 }
 
@@ -83,7 +86,7 @@ Result<Bender> Bender::make(const SolidMesh& solid, const BendProblem& problem, 
   bending.rest = cage->mesh();
   bending.solid_share = cage->solid_share();
   bending.stiffness = stiffnesses(cage->mesh(), problem.kept, 0.5 * cage->cube_mm());
-  bending.fixed = fixed_vertices(*cage, solid, problem.held);
+  bending.fixed = fixed_vertices(*cage, solid, problem);
   bending.samples = cage->samples();
   bending.balance = problem.balance;
   bending.grounds = problem.grounds;

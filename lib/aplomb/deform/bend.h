@@ -21,7 +21,8 @@ struct KeptBall {
 /// What a solid is bent for, and what of it stays.
 struct BendProblem {
   BalanceProblem balance;            ///< the rows of every pose
-  std::vector<bool> held;            ///< per vertex of the solid: contacts and attachments, which do not move
+  std::vector<bool> held;            ///< per vertex of the solid: contacts, which do not move
+  std::vector<Vec3> anchors;         ///< points of the solid that do not move: attachments
   std::vector<GroundPlane> grounds;  ///< the plates of the poses
   std::vector<KeptBall> kept;
 };
