@@ -59,7 +59,8 @@ TEST(DeformCage, ContactsStayWhereTheyAre) {
   const CageProblem problem = test::leaning_bar(25, 15 * degree);
   const CageDeformation result = bent(problem);
   for (std::size_t v = 0; v < problem.fixed.size(); ++v) {
-    if (problem.fixed[v]) EXPECT_EQ(result.vertices[v], problem.rest.vertices[v]);
+    if (!problem.fixed[v]) continue;
+    EXPECT_EQ(result.vertices[v], problem.rest.vertices[v]);
   }
 }
 
@@ -159,6 +160,63 @@ TEST(DeformCage, ARowWithoutAHeightHoldsToo) {
   problem.balance.rows.push_back({{-3, {0, 1, 0}}, {}});  // the centre of mass beyond y = 3
   const CageDeformation result = bent(problem);
   EXPECT_EQ(result.outcome, DeformOutcome::reached);
+}
+
+/// The bar on its middle: beyond 4 mm from the middle, the base is free to sink.
+CageProblem bar_on_its_middle() {
+  CageProblem problem = test::leaning_bar(25, 10 * degree);
+  for (std::size_t v = 0; v < problem.fixed.size(); ++v)
+    if (std::abs(problem.rest.vertices[v].x) > 6) problem.fixed[v] = false;
+  return problem;
+}
+
+TEST(DeformCage, TheGroundKeepsWhatIsFreeFromSinkingBelowThePlate) {
+  EXPECT_LT(lowest_mm(bent(bar_on_its_middle(), {.ground_ratio = 0}).vertices), -0.5);
+  const CageDeformation result = bent(bar_on_its_middle());
+  EXPECT_EQ(result.outcome, DeformOutcome::reached);
+  EXPECT_GE(lowest_mm(result.vertices), -0.02);
+}
+
+TEST(DeformCage, TwoPosesAreMetAtOnce) {
+  const double lean_mm = 12;
+  CageProblem problem = test::leaning_bar(lean_mm, 10 * degree);
+  for (SolidSample& sample : problem.samples) sample.carvable = 0;
+  const auto standing = problem.balance.rows;
+  for (const BalanceRow& row : standing) {  // on its head, where 3 degrees are enough
+    const double less = std::tan(10 * degree) - std::tan(3 * degree);
+    AffineForm a = row.a, b = {60, {0, 0, -1}};
+    a.constant -= lean_mm * a.gradient.x;
+    problem.balance.rows.push_back({a + less * b, b});
+  }
+  problem.grounds.push_back({{0, 0, -1}, -60});
+  for (std::size_t v = 0; v < problem.fixed.size(); ++v)
+    if (problem.rest.vertices[v].z == 60) problem.fixed[v] = true;
+  const CageDeformation result = bent(problem);
+  EXPECT_EQ(result.outcome, DeformOutcome::reached);
+  EXPECT_LT(result.max_turn_rad, 20 * degree);
+  EXPECT_GT(result.max_mm, 0.5);
+}
+
+TEST(DeformCage, HangsWithinTheTiltAskedFor) {
+  CageProblem problem = test::leaning_bar(25, 0);
+  const Vec3 hook{25, 0, 60};  // in the middle of the top: the centre of mass is 12.5 mm beside it
+  problem.balance.rows.clear();
+  for (int i = 0; i < 16; ++i) {
+    const double heading = i * std::numbers::pi / 8;
+    const Vec3 n{std::cos(heading), std::sin(heading), 0};
+    problem.balance.rows.push_back({{dot(n, hook), -n}, {hook.z, {0, 0, -1}}});
+  }
+  problem.required_t = -std::tan(3 * degree);
+  for (std::size_t v = 0; v < problem.fixed.size(); ++v) problem.fixed[v] = problem.rest.vertices[v].z == 60;
+  problem.grounds.clear();
+  const CageDeformation result = bent(problem);
+  EXPECT_EQ(result.outcome, DeformOutcome::reached);
+  EXPECT_GE(result.t, problem.required_t);
+}
+
+TEST(DeformCage, GivesTheSameBytesTwice) {
+  const CageProblem problem = test::leaning_bar(25, 12 * degree);
+  EXPECT_EQ(bent(problem).vertices, bent(problem).vertices);
 }
 
 TEST(DeformCage, WithNothingFixedTheBalanceAloneHoldsIt) {

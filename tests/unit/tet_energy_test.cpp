@@ -80,7 +80,8 @@ TEST(TetEnergy, ModesAreOrthonormal) {
 
 TEST(TetEnergy, WithoutThePoseTermIsBlindToTurning) {
   const TetEnergy energy{.alpha = 0.2, .beta = 0, .gamma = 10};
-  for (const Mat3& f : shapes()) EXPECT_NEAR(energy.value(turn(1.1) * f), energy.value(f), 1e-12 * (1 + energy.value(f)));
+  for (const Mat3& f : shapes())
+    EXPECT_NEAR(energy.value(turn(1.1) * f), energy.value(f), 1e-12 * (1 + energy.value(f)));
 }
 
 TEST(TetEnergy, ATurnCostsThePoseTermAlone) {

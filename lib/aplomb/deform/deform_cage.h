@@ -87,6 +87,9 @@ using DeformListener = std::function<void(const std::vector<Vec3>& vertices, dou
 /// Projected Newton: each step is the exact minimiser of a convex model under the linearised rows, towards as much of
 /// required_t as `most_step_mm` and `most_mean_mm` allow; so the path is a family of shapes of growing t.
 ///
+/// A row whose b is zero (it holds or does not, whatever t is) counts as  a - (t - required_t) size: the same condition
+/// at required_t, and a distance to it elsewhere.
+///
 /// \pre  find_problem(options) is empty; tetrahedra are positively oriented; sizes agree; balance has rows.
 /// \post No tetrahedron is inverted; fixed vertices are where they were; mean_mm <= most_mean_mm.
 /// \post Every accepted iterate is better than the one before by energy + penalty x what is missing of required_t.
