@@ -8,8 +8,6 @@
 #include <numbers>
 
 #include "aplomb/balance/resting.h"
-#include "aplomb/balance/standing.h"
-#include "aplomb/balance/standing_rows.h"
 #include "aplomb/mesh/bodies.h"
 #include "aplomb/report/text.h"
 
@@ -62,19 +60,27 @@ std::array<Region, 1> uniform_body(const Moments& body, const StandOptions& opti
   return {Region{body, options.density_g_per_cm3, 0.02}};
 }
 
-double asked_tip_rad(const Standing& standing, const StandOptions& options) {
-  return options.robust ? standing.stability.robust_tip_rad : standing.stability.tip_rad;
+RowKind kind_of(const StandOptions& options) { return options.robust ? RowKind::robust : RowKind::nominal; }
+
+Result<std::vector<PoseMeasure>> measure_poses(const TriangleMesh& outer, const Moments& body,
+                                               const StandOptions& options) {
+  std::vector<PoseMeasure> measures;
+  for (const Pose& pose : options.poses) {
+    auto measure = measure_pose(outer, uniform_body(body, options), pose);
+    if (!measure) return tl::unexpected(measure.error());
+    measures.push_back(std::move(*measure));
+  }
+  return measures;
 }
 
-Result<Standing> standing_of(const TriangleMesh& outer, const Moments& body, const StandOptions& options) {
-  return measure_standing(outer, uniform_body(body, options), options.pose);
-}
-
-Report begin_report(const Input& input, const StandOptions& options, const Standing& before) {
+/// The report of the solid as it came.
+Result<Report> begin_report(const Input& input, const StandOptions& options) {
+  auto before = measure_poses(input.solid.mesh(), input.moments, options);
+  if (!before) return tl::unexpected(before.error());
   Report report;
   report.version = APLOMB_VERSION;
-  report.required_tip_rad = options.pose.required_tip_rad;
-  report.before = before;
+  for (const Pose& pose : options.poses) report.poses.push_back({pose, {}, {}, false});
+  set_before(report, std::move(*before), kind_of(options));
   report.repair = input.repair.steps;
   report.hints = input.notes;
   report.stage_seconds = input.stage_seconds;
@@ -83,59 +89,77 @@ Report begin_report(const Input& input, const StandOptions& options, const Stand
   return report;
 }
 
-BalanceProblem rows_of(const Standing& standing, const StandOptions& options) {
-  return standing_rows(standing.support, options.pose, options.robust ? RowKind::robust : RowKind::nominal);
-}
-
 struct CarvedShell {
   Carving carving;
   std::optional<Shell> shell;
 };
 
 /// Carves and builds the shell; where simplifying it cost more than was aimed beyond, carves again for as much more.
-Result<CarvedShell> carve_shell(const SolidVolume& volume, const Input& input, const BalanceProblem& problem,
+Result<CarvedShell> carve_shell(const SolidVolume& volume, const Input& input, const JointProblem& joint,
                                 const StandOptions& options, StageClock& clock, const Job& job) {
-  double aimed_rad = options.pose.required_tip_rad + aimed_beyond_rad;
+  const double required_rad = std::atan(joint.required_t);
+  double aimed_rad = required_rad + aimed_beyond_rad;
   for (int round = 1;; ++round) {
     const CarveOptions carving_options{options.aim, std::tan(aimed_rad), options.least_volume_mm3};
-    auto carving = carve(volume, input.moments, problem, carving_options, job.part(0, 0.3));
+    auto carving = carve(volume, input.moments, joint.problem, carving_options, job.part(0, 0.3));
     if (!carving) return tl::unexpected(carving.error());
     clock.lap("carve");
-    carving->reaches = carving->t >= std::tan(options.pose.required_tip_rad);
+    carving->reaches = carving->t >= joint.required_t;
     if (!carving->reaches && !options.best_effort) return CarvedShell{std::move(*carving), std::nullopt};
     auto shell = build_shell(input.solid, carving->field, {.wall_mm = options.wall_mm}, job.part(0.3, 1));
     if (!shell) return tl::unexpected(shell.error());
     clock.lap("shell");
-    const double tip_rad = std::atan(largest_t(problem, moments(shell->mesh)));
-    const double short_rad = options.pose.required_tip_rad - tip_rad;
+    const double short_rad = required_rad - std::atan(largest_t(joint.problem, moments(shell->mesh)));
     if (short_rad <= 0 || !carving->reaches || options.aim == CarveAim::stable || round == most_carvings)
       return CarvedShell{std::move(*carving), std::move(*shell)};
     aimed_rad += short_rad + aimed_beyond_rad;
   }
 }
 
-/// How far half the wall would go, on a coarse grid.
-std::optional<double> tip_with_half_wall(const Input& input, const BalanceProblem& problem, const StandOptions& options,
-                                         const Job& job) {
+CarvingFigures carving_figures(const Carving& carving, const Input& input, const JointProblem& joint,
+                               const StandOptions& options) {
+  constexpr std::array<const char*, 3> aims{"least", "light", "stable"};
+  const bool hangs = !joint.is_surplus && options.poses.front().hanging();
+  const double bound_rad = std::atan(carving.bound_t);
+  return {aims[static_cast<int>(options.aim)],
+          input.moments.volume_mm3 - carving.body.volume_mm3,
+          hangs ? -bound_rad : bound_rad,
+          bound_rad - std::atan(carving.t),
+          static_cast<std::size_t>(carving.planes),
+          joint.is_surplus ? BoundOf::surplus : (hangs ? BoundOf::tilt : BoundOf::tip)};
+}
+
+/// How far half the wall would go, on a coarse grid: the bound of t.
+std::optional<double> t_with_half_wall(const Input& input, const JointProblem& joint, const StandOptions& options,
+                                       const Job& job) {
   VolumeOptions coarse{options.wall_mm / 2, options.wall_mm / 4, 0, options.memory_bytes};
   const auto volume = voxelize(input.solid, coarse, job.part(0, 0.7));
   if (!volume) return std::nullopt;
-  const auto bound_t = carving_bound(*volume, input.moments, problem, 1e-4, job.part(0.7, 1));
-  return bound_t ? std::optional(std::atan(*bound_t)) : std::nullopt;
+  const auto bound_t = carving_bound(*volume, input.moments, joint.problem, 1e-4, job.part(0.7, 1));
+  return bound_t ? std::optional(*bound_t) : std::nullopt;
 }
 
-void add_remedies(Report& report, const Input& input, const BalanceProblem& problem, const StandOptions& options,
-                  const Standing& best, const Job& job) {
-  if (const auto tip_rad = tip_with_half_wall(input, problem, options, job))
+std::string half_wall_text(double t, const JointProblem& joint, const StandOptions& options) {
+  const double angle_deg = std::atan(t) / degree;
+  if (joint.is_surplus) return t >= 0 ? "meet every pose" : "still not meet every pose";
+  if (options.poses.front().hanging()) return fmt::format("come to about {:.1f} degrees from level", -angle_deg);
+  return fmt::format("reach about {:.1f} degrees", angle_deg);
+}
+
+void add_remedies(Report& report, const Input& input, const JointProblem& joint, const StandOptions& options,
+                  const Job& job) {
+  if (const auto t = t_with_half_wall(input, joint, options, job))
     report.hints.push_back(
-        fmt::format("with a wall of {:.3g} mm, or printed twice as high with the wall as it is, carving "
-                    "could reach about {:.1f} degrees",
-                    options.wall_mm / 2, *tip_rad / degree));
-  if (best.pedestal)
+        fmt::format("with a wall of {:.3g} mm, or printed twice as high with the wall as it is, carving could {}",
+                    options.wall_mm / 2, half_wall_text(*t, joint, options)));
+  if (report.after && report.after->pedestal)
     report.hints.push_back(fmt::format("on a round pedestal {:.3g} mm across and {:.3g} mm thick it would stand",
-                                       2 * best.pedestal->radius_mm, best.pedestal->thickness_mm));
-  report.hints.push_back(
-      "a wider base, or a pose that leans less, would help; bending the surface is not in this version");
+                                       2 * report.after->pedestal->radius_mm, report.after->pedestal->thickness_mm));
+  report.hints.push_back(report.has_standing_pose()
+                             ? "a wider base, or a pose that leans less, would help; bending the surface is not in "
+                               "this version"
+                             : "another point to hang from, nearer to straight above the centre of mass, would help; "
+                               "bending the surface is not in this version");
 }
 
 }  // namespace
@@ -161,13 +185,13 @@ Result<Input> load_solid(const std::filesystem::path& path, const InputOptions& 
   if (view) view("3-solid", repaired->solid.mesh());
   clock.lap("repair");
   Input input{repaired->solid, repaired->solid.moments(), std::move(repaired->report), file->notes, seconds};
-  if (!options.placement.up)
+  if (!options.placement.up && options.hint_at_resting)
     if (const auto hint = resting_hint(input.solid.mesh(), input.moments, {})) input.notes.push_back(to_text(*hint));
   return input;
 }
 
 std::string find_problem(const StandOptions& o) {
-  if (std::string problem = find_problem(o.pose); !problem.empty()) return problem;
+  if (std::string problem = find_problem(o.poses); !problem.empty()) return problem;
   if (!(o.density_g_per_cm3 > 0 && o.density_g_per_cm3 < 30))
     return fmt::format("density_g_per_cm3 is {}; it must lie in (0, 30)", o.density_g_per_cm3);
   if (!(o.wall_mm > 0 && o.wall_mm <= 1e4)) return fmt::format("wall_mm is {}; it must lie in (0, 10000]", o.wall_mm);
@@ -184,13 +208,12 @@ double voxel_mm(const StandOptions& options, const Box3& box) {
 
 Result<StandRun> stand(const Input& input, const StandOptions& options, const Job& job, const StageViewer& view) {
   assert(find_problem(options).empty());
-  const auto before = standing_of(input.solid.mesh(), input.moments, options);
-  if (!before) return tl::unexpected(before.error());
-  StandRun run{std::nullopt, std::nullopt, begin_report(input, options, *before)};
+  auto begun = begin_report(input, options);
+  if (!begun) return tl::unexpected(begun.error());
+  StandRun run{std::nullopt, std::nullopt, std::move(*begun)};
   Report& report = run.report;
   StageClock clock(report.stage_seconds);
-  const bool stands = asked_tip_rad(*before, options) >= options.pose.required_tip_rad;
-  if (stands && options.aim == CarveAim::least) {
+  if (all_hold(report) && options.aim == CarveAim::least) {
     report.outcome = Outcome::already_stands;
     run.shell = Shell{input.solid.mesh(), input.solid.mesh().triangles.size(), 0, 0, 0};
     return run;
@@ -203,27 +226,24 @@ Result<StandRun> stand(const Input& input, const StandOptions& options, const Jo
   if (!volume) return tl::unexpected(volume.error());
   clock.lap("voxelize");
 
-  const BalanceProblem problem = rows_of(*before, options);
-  auto carved = carve_shell(*volume, input, problem, options, clock, job.part(0.4, 0.9));
+  const auto joint = joint_problem(input.solid.mesh(), options.poses, kind_of(options));
+  if (!joint) return tl::unexpected(joint.error());
+  auto carved = carve_shell(*volume, input, *joint, options, clock, job.part(0.4, 0.9));
   if (!carved) return tl::unexpected(carved.error());
   run.shell = std::move(carved->shell);
   run.carving = std::move(carved->carving);
   if (view && run.shell) view("4-shell", run.shell->mesh);
 
   const Carving& carving = *run.carving;
-  const auto after = standing_of(input.solid.mesh(), carving.body, options);
+  auto after = measure_poses(input.solid.mesh(), carving.body, options);
   if (!after) return tl::unexpected(after.error());
-  report.after = *after;
+  set_after(report, std::move(*after), kind_of(options));
   report.outcome = carving.reaches ? Outcome::stands : Outcome::best_effort;
-  constexpr std::array<const char*, 3> aims{"least", "light", "stable"};
-  report.carving =
-      CarvingFigures{aims[static_cast<int>(options.aim)], input.moments.volume_mm3 - carving.body.volume_mm3,
-                     std::atan(carving.bound_t), std::atan(carving.bound_t) - std::atan(carving.t),
-                     static_cast<std::size_t>(carving.planes)};
+  report.carving = carving_figures(carving, input, *joint, options);
   if (run.shell) report.wall = WallFigures{options.wall_mm, run.shell->wall_mm};
   if (!carving.reaches) {
     clock.lap("measure");
-    add_remedies(report, input, problem, options, *after, job.part(0.9, 1));
+    add_remedies(report, input, *joint, options, job.part(0.9, 1));
     clock.lap("advise");
   }
   return run;
@@ -232,11 +252,8 @@ Result<StandRun> stand(const Input& input, const StandOptions& options, const Jo
 Result<Report> check(const Input& input, const StandOptions& options, const Job& job) {
   assert(find_problem(options).empty());
   if (!job.report(0, "check")) return cancelled();
-  const auto before = standing_of(input.solid.mesh(), input.moments, options);
-  if (!before) return tl::unexpected(before.error());
-  Report report = begin_report(input, options, *before);
-  const bool stands = asked_tip_rad(*before, options) >= options.pose.required_tip_rad;
-  report.outcome = stands ? Outcome::already_stands : Outcome::falls;
+  auto report = begin_report(input, options);
+  if (report) report->outcome = all_hold(*report) ? Outcome::already_stands : Outcome::falls;
   return report;
 }
 
@@ -260,14 +277,10 @@ Result<Report> measure_output(const TriangleMesh& written, const StandRun& run, 
   if (!solid->solid) return fail(ErrorCode::internal, "the shell is no solid: " + describe(solid->defects));
   figures.voids = solid->solid->voids();
   report.mesh = figures;
-  const auto after = standing_of(written, solid->solid->moments(), options);
+  auto after = measure_poses(written, solid->solid->moments(), options);
   if (!after) return tl::unexpected(after.error());
-  report.after = *after;
-  if (report.carving) {
-    const double tip_rad = asked_tip_rad(*after, options);
-    report.carving->gap_rad = report.carving->bound_rad - tip_rad;
-    report.outcome = tip_rad >= options.pose.required_tip_rad ? Outcome::stands : Outcome::best_effort;
-  }
+  set_after(report, std::move(*after), kind_of(options));
+  if (report.carving) report.outcome = all_hold(report) ? Outcome::stands : Outcome::best_effort;
   return report;
 }
 

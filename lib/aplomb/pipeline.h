@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "aplomb/balance/pose.h"
+#include "aplomb/balance/poses.h"
 #include "aplomb/carve/carve.h"
 #include "aplomb/io/read_mesh.h"
 #include "aplomb/mesh/placement.h"
@@ -23,6 +23,7 @@ struct InputOptions {
   std::optional<std::size_t> object;  ///< which of the file's prints, from 1; needed when there are several
   PlacementOptions placement;
   RepairOptions repair;
+  bool hint_at_resting = true;  ///< note where the model seems to lie: for those who mean +z to be up
 };
 
 /// What a file holds, ready to be measured and carved.
@@ -45,13 +46,13 @@ Result<Input> load_solid(const std::filesystem::path& path, const InputOptions& 
                          const StageViewer& view = {});
 
 struct StandOptions {
-  StandingPose pose;    ///< how it is to stand; its required_tip_rad is what is asked for
-  bool robust = false;  ///< asked of the robust tip angle instead of the nominal one
+  std::vector<Pose> poses{Pose{}};  ///< all of them are to hold at once, each at its required angle; not empty
+  bool robust = false;              ///< asked of the robust tip angles instead of the nominal ones
   CarveAim aim = CarveAim::least;
-  double wall_mm = 1.6;            ///< > 0; four lines of a 0.4 mm nozzle
-  std::optional<double> voxel_mm;  ///< none: at least 4 voxels in the wall and about 256 on the diagonal
-  double least_void_mm = 1;        ///< no void narrower, >= 0
-  double least_volume_mm3 = 10;    ///< no void smaller, >= 0
+  double wall_mm = 1.6;                 ///< > 0; four lines of a 0.4 mm nozzle
+  std::optional<double> voxel_mm = {};  ///< none: at least 4 voxels in the wall and about 256 on the diagonal
+  double least_void_mm = 1;             ///< no void narrower, >= 0
+  double least_volume_mm3 = 10;         ///< no void smaller, >= 0
   std::size_t memory_bytes = std::size_t{4} << 30;
   double density_g_per_cm3 = 1.24;  ///< > 0; PLA
   bool best_effort = false;         ///< make the shell also when it will not stand
@@ -69,14 +70,14 @@ struct StandRun {
   Report report;                   ///< `after` and `mesh` are to be measured on what is written: see measure_output()
 };
 
-/// Makes a solid stand by carving.
+/// Makes a solid hold every pose (stand, or hang) by carving.
 ///
 /// \pre  find_problem(options) is empty.
-/// \return over_budget, cancelled, unusable_input; not being able to stand is an outcome in the report.
+/// \return over_budget, cancelled, unusable_input; not being able to is an outcome in the report.
 Result<StandRun> stand(const Input& input, const StandOptions& options, const Job& job = {},
                        const StageViewer& view = {});
 
-/// How a solid stands as it is.
+/// How a solid holds its poses as it is.
 Result<Report> check(const Input& input, const StandOptions& options, const Job& job = {});
 
 /// Completes the report of a run by measuring what was written, after reading it back: `after`, `mesh`, and the

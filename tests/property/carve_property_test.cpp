@@ -7,6 +7,7 @@
 
 #include "aplomb/adapters/glpk/linear_program.h"
 #include "aplomb/balance/hanging_rows.h"
+#include "aplomb/balance/poses.h"
 #include "aplomb/balance/stability.h"
 #include "aplomb/balance/standing_rows.h"
 #include "aplomb/carve/moment_tree.h"
@@ -22,8 +23,11 @@ namespace {
 
 /// A figure that leans over its foot, ready to be carved.
 struct Figure {
+  explicit Figure(const VolumeOptions& fineness = {.wall_mm = 1.6, .voxel_mm = 0.8, .least_void_mm = 0})
+      : options(fineness) {}
+
   TriangleMesh mesh = test::leaning_prism(16, 12, 30, 15);
-  VolumeOptions options{.wall_mm = 1.6, .voxel_mm = 0.8, .least_void_mm = 0};
+  VolumeOptions options;
   SolidMesh solid = test::solid_of(mesh);
   SolidVolume volume = voxelize(solid, options).value();
   BalanceProblem problem = standing_rows(support_polygon(solid.mesh(), {}).value(), {}, RowKind::nominal);
@@ -199,6 +203,41 @@ TEST(Carve, MakesAFigureStandOnItsFeetAndOnItsHeadAtOnce) {
   for (const BalanceRow& row : figure.problem.rows) EXPECT_GE(row.at(both.t)(both.body), -1e-6);
   EXPECT_LE(both.bound_t, feet_only + 1e-9);
   EXPECT_NEAR(both.t, both.bound_t, 2e-3);
+}
+
+/// Several poses that pull apart: the bound of their union is what a linear program over all voxels reaches.
+TEST(Carve, CertifiesTheUnionOfPosesByALinearProgramWithAVariablePerVoxel) {
+  Figure figure({.wall_mm = 2.4, .voxel_mm = 1.2, .least_void_mm = 0});
+  const Pose feet{"feet", StandingPose{.required_tip_rad = 0.05}};
+  const Pose head{"head", StandingPose{.up = {0, 0, -1}, .required_tip_rad = 0.1}};
+  const Pose hook{"hook", HangingPose{.attachments_mm = {{11, 0, 24}}, .required_tilt_rad = 0.2}};
+  const Pose rail{"rail", HangingPose{.attachments_mm = {{3, -4, 22}, {11, 5, 28}}, .required_tilt_rad = 0.2}};
+  for (const std::vector<Pose>& poses :
+       {std::vector{feet, head}, {feet, hook}, {hook, rail}, {feet, head, hook, rail}}) {
+    figure.problem = joint_problem(figure.mesh, poses, RowKind::nominal).value().problem;
+    const Carving carving = figure.carved(CarveAim::stable);
+    const Cells cells(figure.volume);
+    EXPECT_NEAR(largest_t_by_pieces(figure, cells.pieces(&carving.kept)), carving.bound_t, 2e-6);
+    EXPECT_LE(largest_t_by_pieces(figure, cells.pieces(nullptr)), carving.bound_t + 1e-7);
+    EXPECT_NEAR(carving.t, carving.bound_t, 4e-3);
+  }
+}
+
+/// The hook is inside, mass lies above it: b has no lower bound of its own, and the certificate must still end.
+TEST(Carve, CertifiesAFigureThatHangsFromAPointInside) {
+  Figure figure({.wall_mm = 2.4, .voxel_mm = 1.2, .least_void_mm = 0});
+  for (const double height : {12.0, 15.5, 18.0}) {
+    const Pose hook{"", HangingPose{.attachments_mm = {{8, 0, height}}}};
+    figure.problem = joint_problem(figure.mesh, {&hook, 1}, RowKind::nominal).value().problem;
+    const Carving carving = figure.carved(CarveAim::stable);
+    EXPECT_LT(carving.planes, 300) << height;
+    if (carving.bound_t == -std::numeric_limits<double>::infinity()) {
+      EXPECT_EQ(height, 12);
+      continue;
+    }
+    EXPECT_LE(carving.bound_t, 1e-6);
+    EXPECT_LE(largest_t_by_pieces(figure, Cells(figure.volume).pieces(nullptr)), carving.bound_t + 1e-7) << height;
+  }
 }
 
 TEST(Carve, LevelsAFigureThatHangs) {

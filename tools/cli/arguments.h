@@ -6,23 +6,23 @@
 #include <utility>
 #include <vector>
 
-#include "aplomb/pipeline.h"
+#include "aplomb/job/job_file.h"
 
 namespace aplomb::cli {
 
-enum class Command { stand, check };
+enum class Command {
+  check,
+  stand,
+  hang,
+  poses,  ///< list the ways it can rest
+  run,    ///< a job file
+};
 
 /// What the command line asked for.
 struct Arguments {
   Command command = Command::check;
-  std::filesystem::path model;
-  std::filesystem::path output;
-  std::filesystem::path report;
-  std::filesystem::path dump;
-  InputOptions input;
-  StandOptions stand;
-  std::vector<std::string> contacts;  ///< "X,Y,Z[,R]", resolved when the model's size is known
-  int threads = 0;
+  JobFile job;                     ///< without an output the poses are only checked
+  std::filesystem::path save_job;  ///< where to write `job`; empty: nowhere
   bool quiet = false;
   std::vector<std::pair<std::string, std::string>> given;  ///< flags as they were given, for the report
 };
@@ -34,8 +34,5 @@ struct Parsed {
 };
 
 Parsed parse_arguments(int argc, char** argv);
-
-/// The contacts as balls; a radius that was left out is 5 % of the model's height.
-Result<std::vector<Contact>> contacts_of(const std::vector<std::string>& texts, double height_mm);
 
 }  // namespace aplomb::cli

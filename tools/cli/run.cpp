@@ -9,10 +9,12 @@
 #include <cstdio>
 #include <span>
 
+#include "aplomb/balance/landing.h"
 #include "aplomb/core/stage_clock.h"
 #include "aplomb/core/threads.h"
 #include "aplomb/io/write_mesh.h"
 #include "aplomb/report/json.h"
+#include "aplomb/report/landing_list.h"
 #include "aplomb/report/text.h"
 #include "interrupt.h"
 
@@ -86,40 +88,49 @@ double peak_memory_mb() {
   return static_cast<double>(std::max(own.ru_maxrss, children.ru_maxrss)) / 1024;
 }
 
+Result<void> write_text(const std::filesystem::path& path, const std::string& text) {
+  return write_file_atomically(path, std::as_bytes(std::span(text)), remember_temp_file);
+}
+
+/// Says it on standard output when it is the answer, and nothing else is written there.
+void say(const Arguments& a, const std::string& text, bool is_answer) {
+  if (!a.quiet) fmt::print(is_answer && a.job.report != "-" ? stdout : stderr, "{}", text);
+}
+
 /// Completes the report with what only the program knows, and writes it where it was asked for.
 Result<void> publish(Report& report, const Arguments& a) {
   for (const auto& [flag, value] : a.given) report.options.emplace_back(flag, value);
   report.peak_memory_mb = peak_memory_mb();
-  if (!a.quiet) fmt::print(a.command == Command::check && a.report != "-" ? stdout : stderr, "{}", to_text(report));
-  if (a.report.empty()) return {};
-  const std::string json = to_json(report);
-  return write_file_atomically(a.report, std::as_bytes(std::span(json)), remember_temp_file);
+  say(a, to_text(report), a.job.output.empty());
+  return a.job.report.empty() ? Result<void>{} : write_text(a.job.report, to_json(report));
 }
 
 /// Writes the shell, reads it back and measures what the file holds.
-Result<Report> write_and_measure(const StandRun& made, const Arguments& a, const Job& job) {
-  const MeshFormat format = a.output == "-" ? MeshFormat::stl : *format_of(a.output);
-  auto bytes = encode_mesh(made.shell->mesh, format, WriteOptions{a.output.stem().string(), {}}, job.part(0, 0.4));
+Result<Report> write_and_measure(const StandRun& made, const Arguments& a, const StandOptions& options,
+                                 const Job& job) {
+  const std::filesystem::path& output = a.job.output;
+  const MeshFormat format = output == "-" ? MeshFormat::stl : *format_of(output);
+  auto bytes = encode_mesh(made.shell->mesh, format, WriteOptions{output.stem().string(), {}}, job.part(0, 0.4));
   if (!bytes) return tl::unexpected(bytes.error());
   const auto back =
-      read_mesh(*bytes, a.output == "-" ? "standard output.stl" : a.output.filename().string(), {}, job.part(0.4, 0.6));
+      read_mesh(*bytes, output == "-" ? "standard output.stl" : output.filename().string(), {}, job.part(0.4, 0.6));
   if (!back) return tl::unexpected(back.error());
-  auto report = measure_output(rounded_to_float(back->objects.front().mesh), made, a.stand, job.part(0.6, 1));
+  auto report = measure_output(rounded_to_float(back->objects.front().mesh), made, options, job.part(0.6, 1));
   if (!report) return report;
-  if (const auto written = write_file_atomically(a.output, *bytes, remember_temp_file); !written)
+  if (const auto written = write_file_atomically(output, *bytes, remember_temp_file); !written)
     return tl::unexpected(written.error());
   return report;
 }
 
-int run_stand(const Arguments& a, const Input& input, const Job& job) {
-  auto made = stand(input, a.stand, job.part(0, 0.8), dump_into(a.dump));
+int run_stand(const Arguments& a, const Input& input, const StandOptions& options, const Job& job) {
+  auto made = stand(input, options, job.part(0, 0.8), dump_into(a.job.dump));
   if (!made) return report_error(made.error());
   Report report = made->report;
-  const bool writes = made->shell && (report.outcome != Outcome::best_effort || a.stand.best_effort);
+  const bool writes = made->shell && (report.outcome != Outcome::best_effort || options.best_effort);
   if (writes) {
     StageSeconds seconds = made->report.stage_seconds;
     StageClock clock(seconds);
-    auto measured = write_and_measure(*made, a, job.part(0.8, 1));
+    auto measured = write_and_measure(*made, a, options, job.part(0.8, 1));
     if (!measured) return report_error(measured.error());
     clock.lap("write");
     report = std::move(*measured);
@@ -129,25 +140,45 @@ int run_stand(const Arguments& a, const Input& input, const Job& job) {
   return report.outcome == Outcome::best_effort ? Exit::cannot_stand : Exit::stands;
 }
 
-}  // namespace
-
-int run(const Arguments& arguments) {
-  Arguments a = arguments;
-  if (a.command == Command::stand && a.output != "-")
-    if (const auto format = format_of(a.output); !format) return report_error(format.error());
-  const ThreadLimit limit(a.threads);
-  ProgressLine progress(!a.quiet);
-  const Job job = progress.job();
-  const auto input = load_solid(a.model, a.input, job.part(0, 0.3), dump_into(a.dump));
-  if (!input) return report_error(input.error());
-  const auto contacts = contacts_of(a.contacts, input->solid.box().size().z);
-  if (!contacts) return report_error(contacts.error());
-  a.stand.pose.contacts = *contacts;
-  if (a.command == Command::stand) return run_stand(a, *input, job.part(0.3, 1));
-  auto report = check(*input, a.stand, job.part(0.3, 1));
+int run_check(const Arguments& a, const Input& input, const StandOptions& options, const Job& job) {
+  auto report = check(input, options, job);
   if (!report) return report_error(report.error());
   if (const auto published = publish(*report, a); !published) return report_error(published.error());
   return report->outcome == Outcome::falls ? Exit::cannot_stand : Exit::stands;
+}
+
+int list_poses(const Arguments& a, const Input& input) {
+  const auto found = landings(input.solid.mesh(), input.moments, 1e-3 * input.solid.box().diagonal());
+  if (!found) return report_error(found.error());
+  say(a, to_text(*found), true);
+  if (!a.job.report.empty())
+    if (const auto written = write_text(a.job.report, to_json(*found)); !written) return report_error(written.error());
+  return Exit::stands;
+}
+
+/// Writes the command as a job, before it is run.
+Result<void> save_job(const Arguments& a) {
+  if (a.save_job.empty()) return {};
+  const auto folder = a.save_job == "-" ? std::filesystem::path(".") : a.save_job.parent_path();
+  return write_text(a.save_job, to_json(a.job, folder));
+}
+
+}  // namespace
+
+int run(const Arguments& a) {
+  const JobFile& asked = a.job;
+  if (!asked.output.empty() && asked.output != "-")
+    if (const auto format = format_of(asked.output); !format) return report_error(format.error());
+  if (const auto saved = save_job(a); !saved) return report_error(saved.error());
+  const ThreadLimit limit(asked.threads);
+  ProgressLine progress(!a.quiet);
+  const Job job = progress.job();
+  const auto input = load_solid(asked.model, asked.input, job.part(0, 0.3), dump_into(asked.dump));
+  if (!input) return report_error(input.error());
+  if (a.command == Command::poses) return list_poses(a, *input);
+  const StandOptions options = stand_options(asked, input->solid.box().size().z);
+  return asked.output.empty() ? run_check(a, *input, options, job.part(0.3, 1))
+                              : run_stand(a, *input, options, job.part(0.3, 1));
 }
 
 }  // namespace aplomb::cli

@@ -11,8 +11,9 @@ namespace {
 /// n . (x - p).
 AffineForm along(Vec3 n, Vec3 p) { return {-dot(n, p), n}; }
 
+constexpr int directions = 16;
+
 BalanceProblem from_one(Vec3 attachment_mm, const PlateFrame& frame) {
-  constexpr int directions = 16;
   BalanceProblem problem;
   for (int j = 0; j < directions; ++j) {
     const double angle = 2 * std::numbers::pi * j / directions;
@@ -22,11 +23,18 @@ BalanceProblem from_one(Vec3 attachment_mm, const PlateFrame& frame) {
   return problem;
 }
 
+BalanceProblem with_drop_of(double least_drop_mm, BalanceProblem problem) {
+  AffineForm drop = problem.rows.front().b;
+  drop.constant -= least_drop_mm;
+  problem.rows.push_back({drop, {}});
+  return problem;
+}
+
 }  // namespace
 
-Result<BalanceProblem> hanging_rows(std::span<const Vec3> attachments_mm, Vec3 up) {
+Result<BalanceProblem> hanging_rows(std::span<const Vec3> attachments_mm, Vec3 up, double least_drop_mm) {
   const PlateFrame frame = plate_frame(up, 0);
-  if (attachments_mm.size() == 1) return from_one(attachments_mm[0], frame);
+  if (attachments_mm.size() == 1) return with_drop_of(least_drop_mm, from_one(attachments_mm[0], frame));
   if (attachments_mm.size() != 2)
     return fail(ErrorCode::invalid_option,
                 "a figure hangs from one or two points; " + std::to_string(attachments_mm.size()) + " were given");
@@ -38,8 +46,15 @@ Result<BalanceProblem> hanging_rows(std::span<const Vec3> attachments_mm, Vec3 u
   const Vec3 from_p_to_q = level / span_mm, across = cross(frame.up, from_p_to_q);
   const double slope = dot(frame.up, rise) / span_mm;
   const AffineForm drop = along(-frame.up, p) + slope * along(from_p_to_q, p);
-  return BalanceProblem{
-      {{along(across, p), drop}, {along(-across, p), drop}, {along(from_p_to_q, p), {}}, {along(-from_p_to_q, q), {}}}};
+  return with_drop_of(least_drop_mm, {{{along(across, p), drop},
+                                       {along(-across, p), drop},
+                                       {along(from_p_to_q, p), {}},
+                                       {along(-from_p_to_q, q), {}}}});
+}
+
+double hanging_t(const HangingPose& pose) {
+  const double overlooked = pose.attachments_mm.size() == 1 ? std::cos(std::numbers::pi / directions) : 1;
+  return -std::tan(pose.required_tilt_rad) * overlooked;
 }
 
 }  // namespace aplomb

@@ -17,6 +17,8 @@ namespace {
 
 constexpr int most_planes = 400;
 
+bool is_condition(const BalanceRow& row) { return row.b.constant == 0 && row.b.gradient == Vec3{}; }
+
 auto unsolved() { return fail(ErrorCode::internal, "the linear program over the planes found so far was not solved"); }
 
 }  // namespace
@@ -28,9 +30,22 @@ PlaneSearch::PlaneSearch(BalanceProblem problem, BestBody best_body, const Momen
   for (const BalanceRow& row : problem_.rows) {
     const double weight = row.b(uncarved) / scale_;
     row_weights_.push_back(weight > 0 ? weight : 1);
-    least_b_.push_back(std::max(0.0, row.b(best_body_(-1 * row.b)) / scale_));
+    const bool is_as_before = !least_b_.empty() && row.b.constant == problem_.rows[least_b_.size() - 1].b.constant &&
+                              row.b.gradient == problem_.rows[least_b_.size() - 1].b.gradient;
+    least_b_.push_back(is_as_before ? least_b_.back() : least_b(row));
   }
   points_.push_back(uncarved);
+}
+
+/// Every body that counts fulfils c(r) >= 0 for a condition c, so b(r) >= (b - c)(r): where mass may lie above the
+/// points that a figure hangs from, b has no useful bound of its own, but b - c is a constant.
+double PlaneSearch::least_b(const BalanceRow& row) const {
+  if (is_condition(row)) return 0;
+  const auto least_of = [&](const AffineForm& form) { return form(best_body_(-1 * form)); };
+  double least = std::max(0.0, least_of(row.b));
+  for (const BalanceRow& other : problem_.rows)
+    if (is_condition(other)) least = std::max(least, least_of(row.b - other.a));
+  return least / scale_;
 }
 
 double PlaneSearch::row_value(const BalanceRow& row, double t, const Moments& body) const {
@@ -57,12 +72,59 @@ double PlaneSearch::certified_bound(const std::vector<double>& weights, double t
   return least > 0 ? t + value / least : std::numeric_limits<double>::infinity();
 }
 
+/// Maximises the least slack of the conditions alone, until it is positive or proved not to be. A t that some mixture
+/// of bodies holds, or -infinity.
+Result<double> PlaneSearch::meet_conditions(PlaneChoice& best, const Job& job) {
+  std::vector<AffineForm> conditions;
+  for (const BalanceRow& row : problem_.rows)
+    if (is_condition(row)) conditions.push_back((1 / scale_) * row.a);
+  const auto slack = [&](const Moments& body) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const AffineForm& condition : conditions) least = std::min(least, condition(body));
+    return least;
+  };
+  double reached = slack(best.body);
+  for (int round = 0; round < most_planes && reached <= 0; ++round) {
+    if (!job.report(0, "carve")) return cancelled();
+    LinearProgram program;  // maximise s with sum_k share_k c_i(point_k) >= s
+    program.variables.assign(points_.size(), {});
+    program.variables.push_back({1, -adapters::unbounded, adapters::unbounded});
+    for (const AffineForm& condition : conditions) {
+      LinearProgram::Row row;
+      for (const Moments& point : points_) row.coefficients.push_back(condition(point));
+      row.coefficients.push_back(-1);
+      program.rows.push_back(std::move(row));
+    }
+    LinearProgram::Row shares{std::vector<double>(points_.size(), 1.0), 1, true};
+    shares.coefficients.push_back(0);
+    program.rows.push_back(std::move(shares));
+    const auto solution = adapters::solve(program);
+    if (!solution) return unsolved();
+    if (solution->value > 0) {
+      Moments mixture;
+      for (std::size_t k = 0; k < points_.size(); ++k) mixture += solution->x[k] * points_[k];
+      return largest_t(problem_, mixture);
+    }
+    AffineForm kept;
+    for (std::size_t i = 0; i < conditions.size(); ++i)
+      kept = kept + std::max(0.0, -solution->duals[i]) * conditions[i];
+    const Moments body = try_plane(kept);
+    if (slack(body) > reached) best.kept = kept, best.body = body, reached = slack(body);
+    if (const double most = kept(body); most <= 0 || most - solution->value < 1e-12) break;
+  }
+  return largest_t(problem_, best.body);
+}
+
 Result<PlaneChoice> PlaneSearch::most_stable(double tolerance, const Job& job) {
-  PlaneChoice best{
-      {1, {}}, points_.front(), largest_t(problem_, points_.front()), std::numeric_limits<double>::infinity()};
-  double t = best.t;
-  if (!std::isfinite(t)) t = 0;
-  for (int round = 0; round < most_planes && best.bound - std::max(best.t, t) > tolerance; ++round) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  PlaneChoice best{{1, {}}, points_.front(), -infinity, infinity};
+  const auto start = meet_conditions(best, job);
+  if (!start) return tl::unexpected(start.error());
+  best.t = largest_t(problem_, best.body);
+  double t = *start;
+  if (!std::isfinite(t)) return best.bound = t, best;
+  double mixed = t;  // reached by a mixture
+  for (int round = 0; round < most_planes && best.bound - std::max(best.t, mixed) > tolerance; ++round) {
     if (!job.report(double(round) / (round + 20), "carve")) return cancelled();
     LinearProgram program;  // maximise s with sum_k share_k g_i(point_k, t) >= s weight_i
     program.variables.assign(points_.size(), {});
@@ -89,13 +151,14 @@ Result<PlaneChoice> PlaneSearch::most_stable(double tolerance, const Job& job) {
       best.kept = kept, best.body = body, best.t = reached;
     best.bound = std::min(best.bound, certified_bound(weights, t, kept(body) / scale_));
     const double promised = largest_t(problem_, mixture);
+    mixed = std::max(mixed, promised);
     t = solution->value >= 0 && std::isfinite(promised) ? std::max(t, promised) : t + solution->value;
     t = std::min(t, best.bound);
   }
-  if (best.bound - best.t <= tolerance || !(t > best.t)) return best;
+  if (best.bound - best.t <= tolerance || !(mixed > best.t)) return best;
   // Mixtures alone reach it: the form is nowhere but zero (a figure that hangs and is balanced already by many bodies).
   // Of these bodies the one with the most volume is a half-space again.
-  auto balanced = extreme_volume(VolumeAim::most, t - tolerance, best, job);
+  auto balanced = extreme_volume(VolumeAim::most, mixed - 20 * tolerance, best, job);
   if (!balanced) return balanced;
   if (balanced->t > best.t) best = {balanced->kept, balanced->body, balanced->t, best.bound};
   return best;
@@ -117,6 +180,7 @@ Result<PlaneChoice> PlaneSearch::extreme_volume(VolumeAim aim, double t, const P
     }
     program.rows.push_back({std::vector<double>(points_.size(), 1.0), 1, true});
     const auto solution = adapters::solve(program);
+    if (!solution && round > 0) break;  // what is left is too thin for the simplex method: the bound so far holds
     if (!solution) return unsolved();
     std::vector<double> weights(problem_.rows.size());
     for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = std::max(0.0, -solution->duals[i]) / scale_;

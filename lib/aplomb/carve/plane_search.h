@@ -35,7 +35,8 @@ class PlaneSearch {
   /// \pre problem.rows is not empty. `uncarved` is one of the bodies.
   PlaneSearch(BalanceProblem problem, BestBody best_body, const Moments& uncarved);
 
-  /// Maximises t until a half-space, or a mixture of them, is within `tolerance` of the certified bound.
+  /// Maximises t until a half-space, or a mixture of them, is within `tolerance` of the certified bound. Where no body
+  /// fulfils the rows with b = 0, which do not depend on t, both are -infinity and the body comes nearest to it.
   Result<PlaneChoice> most_stable(double tolerance, const Job& job = {});
 
   /// The most (or least) volume with every row at t, to 1e-8 of the uncarved volume; the half-space's own t may differ
@@ -49,6 +50,8 @@ class PlaneSearch {
   double row_value(const BalanceRow& row, double t, const Moments& body) const;
   AffineForm combination(const std::vector<double>& weights, double t) const;
   Moments try_plane(const AffineForm& kept);
+  double least_b(const BalanceRow& row) const;
+  Result<double> meet_conditions(PlaneChoice& best, const Job& job);
   double certified_bound(const std::vector<double>& weights, double t, double value) const;
 
   BalanceProblem problem_;

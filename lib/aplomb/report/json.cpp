@@ -1,5 +1,6 @@
 #include "aplomb/report/json.h"
 
+#include <array>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
@@ -46,10 +47,37 @@ Json json(const Standing& standing) {
   return object;
 }
 
+Json json(const Hanging& h) {
+  return {{"mass_g", h.mass_g},       {"volume_mm3", h.volume_mm3},
+          {"com_mm", json(h.com_mm)}, {"tilt_deg", degrees(h.tilt_rad)},
+          {"drop_mm", h.drop_mm},     {"pulls_all_threads", h.pulls_all_threads}};
+}
+
+Json json(const PoseMeasure& measure) {
+  return std::visit([](const auto& m) { return json(m); }, measure);
+}
+
+Json json(const PoseReport& entry, std::size_t number) {
+  const std::string name = entry.pose.name.empty() ? "pose " + std::to_string(number) : entry.pose.name;
+  Json object{{"name", name}, {"kind", entry.pose.hanging() ? "hanging" : "standing"}, {"up", json(entry.pose.up())}};
+  if (const HangingPose* hanging = entry.pose.hanging()) {
+    object["required_tilt_deg"] = degrees(hanging->required_tilt_rad);
+    object["attachments_mm"] = Json::array();
+    for (const Vec3& point : hanging->attachments_mm) object["attachments_mm"].push_back(json(point));
+  } else {
+    object["required_tip_deg"] = degrees(entry.pose.standing()->required_tip_rad);
+  }
+  object["holds"] = entry.holds;
+  object["before"] = json(entry.before);
+  if (entry.after) object["after"] = json(*entry.after);
+  return object;
+}
+
 Json json(const CarvingFigures& c) {
+  constexpr std::array<const char*, 3> bounds{"bound_deg", "bound_tilt_deg", "bound_surplus_deg"};
   return {{"aim", c.aim},
           {"void_mm3", c.void_mm3},
-          {"bound_deg", degrees(c.bound_rad)},
+          {bounds[static_cast<std::size_t>(c.bound_of)], degrees(c.bound_rad)},
           {"gap_deg", degrees(c.gap_rad)},
           {"planes", c.planes}};
 }
@@ -79,11 +107,14 @@ std::string to_string(Outcome outcome) {
 }
 
 std::string to_json(const Report& report) {
-  Json object{{"version", report.version},
-              {"outcome", to_string(report.outcome)},
-              {"required_tip_deg", degrees(report.required_tip_rad)},
-              {"before", json(report.before)}};
+  Json object{{"version", report.version}, {"outcome", to_string(report.outcome)}};
+  if (report.has_standing_pose()) {
+    object["required_tip_deg"] = degrees(report.required_tip_rad);
+    object["before"] = json(report.before);
+  }
   if (report.after) object["after"] = json(*report.after);
+  object["poses"] = Json::array();
+  for (std::size_t i = 0; i < report.poses.size(); ++i) object["poses"].push_back(json(report.poses[i], i + 1));
   if (report.carving) object["carving"] = json(*report.carving);
   if (report.wall) object["wall_mm"] = {{"required", report.wall->required_mm}, {"measured", report.wall->measured_mm}};
   if (report.mesh) object["mesh"] = json(*report.mesh);

@@ -7,7 +7,8 @@
 namespace aplomb {
 
 /// The report as JSON, indented, its keys in a fixed order and stable between versions; mm and degrees. Points are
-/// [x, y, z] in the model's own coordinates. What the report lacks has no key.
+/// [x, y, z] in the model's own coordinates. What the report lacks has no key;
+/// `required_tip_deg`, `before` and `after` are of the first standing pose, `poses` lists every pose.
 std::string to_json(const Report& report);
 
 /// "already_stands", "stands", "best_effort" or "falls".

@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "aplomb/balance/standing.h"
+#include "aplomb/balance/poses.h"
 #include "aplomb/core/stage_clock.h"
 
 namespace aplomb {
@@ -19,12 +19,28 @@ enum class Outcome {
   falls,           ///< it does not, and only that was asked (`check`)
 };
 
+/// What a bound is of.
+enum class BoundOf {
+  tip,      ///< the tip angle of the only pose: none is larger
+  tilt,     ///< the tilt of the only pose, which hangs: none is smaller
+  surplus,  ///< of several poses, atan of what the tangents of all exceed those asked for: none is larger
+};
+
 struct CarvingFigures {
   std::string aim;  ///< "least", "light" or "stable"
   double void_mm3 = 0;
-  double bound_rad = 0;    ///< no void in this volume gives a larger tip angle
-  double gap_rad = 0;      ///< bound less what was reached
+  double bound_rad = 0;    ///< no void in this volume gives a larger tip angle (see bound_of)
+  double gap_rad = 0;      ///< between the bound and what was reached
   std::size_t planes = 0;  ///< tried until it was proved
+  BoundOf bound_of = BoundOf::tip;
+};
+
+/// How one pose holds.
+struct PoseReport {
+  Pose pose;
+  PoseMeasure before;
+  std::optional<PoseMeasure> after;
+  bool holds = false;  ///< as asked, after where there is one
 };
 
 struct WallFigures {
@@ -44,9 +60,10 @@ struct MeshFigures {
 struct Report {
   std::string version;
   Outcome outcome = Outcome::falls;
-  double required_tip_rad = 0;
-  Standing before;
-  std::optional<Standing> after;
+  double required_tip_rad = 0;    ///< of the first standing pose
+  Standing before;                ///< of the first standing pose; without corners when every pose hangs
+  std::optional<Standing> after;  ///< of the first standing pose
+  std::vector<PoseReport> poses;  ///< every pose, in the order in which they were asked for
   std::optional<CarvingFigures> carving;
   std::optional<WallFigures> wall;
   std::optional<MeshFigures> mesh;
@@ -55,6 +72,17 @@ struct Report {
   StageSeconds stage_seconds;
   double peak_memory_mb = 0;
   std::vector<std::pair<std::string, std::variant<bool, double, std::string>>> options;
+
+  /// Whether `before` says anything.
+  bool has_standing_pose() const { return !before.support.corners_mm.empty(); }
 };
+
+/// Puts what was measured first (`before`), or on the final body (`after`), into the report: one measure for each of
+/// its poses. The latter also gives carving->gap_rad.
+void set_before(Report& report, std::vector<PoseMeasure> measures, RowKind kind);
+void set_after(Report& report, std::vector<PoseMeasure> measures, RowKind kind);
+
+/// Whether every pose holds.
+bool all_hold(const Report& report);
 
 }  // namespace aplomb

@@ -79,12 +79,38 @@ std::string figures(const Standing& standing) {
   return text;
 }
 
+std::string figures(const Hanging& hanging) {
+  std::string text =
+      line("mass", figure(hanging.mass_g) + " g, " + figure(hanging.volume_mm3 * 1e-3) + " cm3") +
+      line("centre of mass", point(hanging.com_mm) + ", " + number(std::abs(hanging.drop_mm), 1) +
+                                 (hanging.drop_mm >= 0 ? " mm below" : " mm above") + " where it hangs") +
+      line("tilt", degrees(hanging.tilt_rad) + " degrees from level");
+  if (!hanging.pulls_all_threads) text += line("", "one thread is slack: the centre of mass is not between the points");
+  return text;
+}
+
+std::string figures(const PoseMeasure& measure) {
+  return std::visit([](const auto& m) { return figures(m); }, measure);
+}
+
+std::string bound(const CarvingFigures& carving) {
+  switch (carving.bound_of) {
+    case BoundOf::tip:
+      return "no void gives more than " + degrees(carving.bound_rad) + " degrees";
+    case BoundOf::tilt:
+      return "no void comes nearer to level than " + degrees(carving.bound_rad) + " degrees";
+    case BoundOf::surplus:
+      break;
+  }
+  if (carving.bound_rad < 0) return "no void meets every pose";
+  return "no void exceeds every pose by more than " + degrees(carving.bound_rad) + " degrees";
+}
+
 std::string work(const Report& report) {
   std::string text;
   if (report.carving)
-    text += line("void", figure(report.carving->void_mm3 * 1e-3) + " cm3; no void gives more than " +
-                             degrees(report.carving->bound_rad) + " degrees (aim " + report.carving->aim + ", " +
-                             std::to_string(report.carving->planes) + " planes)");
+    text += line("void", figure(report.carving->void_mm3 * 1e-3) + " cm3; " + bound(*report.carving) + " (aim " +
+                             report.carving->aim + ", " + std::to_string(report.carving->planes) + " planes)");
   if (report.wall)
     text += line("wall", number(report.wall->measured_mm, 3) + " mm measured, " + number(report.wall->required_mm, 3) +
                              " asked");
@@ -98,6 +124,79 @@ std::string work(const Report& report) {
   return text;
 }
 
+std::string asked(const Pose& pose) {
+  if (const HangingPose* hanging = pose.hanging())
+    return "hangs, to " + degrees(hanging->required_tilt_rad) + " degrees asked";
+  return "stands, " + degrees(pose.standing()->required_tip_rad) + " degrees asked";
+}
+
+std::string name_of(const Report& report, std::size_t i) {
+  const std::string& name = report.poses[i].pose.name;
+  return name.empty() ? "pose " + std::to_string(i + 1) : name;
+}
+
+std::string angle(const PoseMeasure& measure) {
+  if (const auto* hanging = std::get_if<Hanging>(&measure)) return degrees(hanging->tilt_rad);
+  return degrees(std::get<Standing>(measure).stability.tip_rad);
+}
+
+std::string hanging_verdict(const Report& report) {
+  const PoseReport& entry = report.poses.front();
+  const std::string before = angle(entry.before) + " degrees",
+                    asked_for = degrees(entry.pose.hanging()->required_tilt_rad) + " asked";
+  switch (report.outcome) {
+    case Outcome::already_stands:
+      return "Hangs level: tilted by " + before + " (" + asked_for + ")";
+    case Outcome::stands:
+      return "Hangs level now: tilted by " + angle(*entry.after) + " degrees (" + asked_for + ", " + before +
+             " before)";
+    case Outcome::best_effort:
+      return "Cannot hang level: tilted by " + angle(*entry.after) + " degrees at best (" + asked_for + ", " + before +
+             " before)";
+    case Outcome::falls:
+      break;
+  }
+  return "Hangs tilted by " + before + " (" + asked_for + ")";
+}
+
+std::string joint_verdict(const Report& report) {
+  std::string list;
+  for (std::size_t i = 0; i < report.poses.size(); ++i) {
+    const PoseReport& entry = report.poses[i];
+    list += (i == 0 ? "" : ", ") + name_of(report, i) + " " + angle(entry.after ? *entry.after : entry.before);
+    if (!entry.holds) list += entry.pose.hanging() ? " (too tilted)" : " (too little)";
+  }
+  const std::string all = "all " + std::to_string(report.poses.size()) + " poses";
+  switch (report.outcome) {
+    case Outcome::already_stands:
+      return "Holds " + all + ": " + list + " degrees";
+    case Outcome::stands:
+      return "Holds " + all + " now: " + list + " degrees";
+    case Outcome::best_effort:
+      return "Cannot hold " + all + ": " + list + " degrees at best";
+    case Outcome::falls:
+      break;
+  }
+  return "Does not hold " + all + ": " + list + " degrees";
+}
+
+/// Of several poses, or of one that hangs: each as it was and as it is.
+std::string pose_figures(const Report& report) {
+  std::string text;
+  for (std::size_t i = 0; i < report.poses.size(); ++i) {
+    const PoseReport& entry = report.poses[i];
+    const std::string head = name_of(report, i) + " (" + asked(entry.pose) + ")";
+    text += head + (entry.after ? ", before\n" : "\n") + figures(entry.before);
+    if (entry.after) text += head + ", after\n" + figures(*entry.after);
+  }
+  return text;
+}
+
+/// One pose, standing: most runs, and they keep their short form.
+bool is_plain(const Report& report) {
+  return report.poses.empty() || (report.poses.size() == 1 && report.poses.front().pose.standing());
+}
+
 }  // namespace
 
 std::string direction_word(Vec3 direction) {
@@ -109,6 +208,8 @@ std::string direction_word(Vec3 direction) {
 }
 
 std::string verdict(const Report& report) {
+  if (report.poses.size() > 1) return joint_verdict(report);
+  if (!is_plain(report)) return hanging_verdict(report);
   const Stability& now = (report.after ? *report.after : report.before).stability;
   const std::string angle = degrees(now.tip_rad) + " degrees", asked = degrees(report.required_tip_rad);
   switch (report.outcome) {
@@ -130,7 +231,9 @@ std::string verdict(const Report& report) {
 
 std::string to_text(const Report& report) {
   std::string text = verdict(report) + "\n";
-  if (report.after) text += "before\n" + figures(report.before) + "after\n" + figures(*report.after) + work(report);
+  if (!is_plain(report)) text += pose_figures(report) + work(report);
+  else if (report.after)
+    text += "before\n" + figures(report.before) + "after\n" + figures(*report.after) + work(report);
   else text += figures(report.before) + work(report);
   for (const std::string& sentence : report.repair) text += line("repair", sentence);
   for (const std::string& sentence : report.hints) text += "hint: " + sentence + "\n";

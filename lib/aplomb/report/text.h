@@ -9,7 +9,8 @@
 namespace aplomb {
 
 /// The report for people: the verdict first, then the figures, then what was repaired and what would help. Degrees, mm,
-/// no more digits than mean something; ends with a newline. The same in every locale.
+/// no more digits than mean something; ends with a newline. The same in every locale. Of several poses, and of one that
+/// hangs, each is listed by its name.
 std::string to_text(const Report& report);
 
 /// The first line of it: "Falls: tips over to the +x side, -7.9 degrees (10.0 asked)".

@@ -64,6 +64,16 @@ std::vector<Vec2> without_false_width(std::vector<Vec2> hull) {
   return is_wide ? hull : std::vector<Vec2>{a, b};
 }
 
+/// Of corners that coincide but for rounding one.
+std::vector<Vec2> without_twins(const std::vector<Vec2>& hull) {
+  const double noise_mm = noise(hull);
+  std::vector<Vec2> corners;
+  for (const Vec2& corner : hull)
+    if (corners.empty() || norm(corner - corners.back()) > noise_mm) corners.push_back(corner);
+  while (corners.size() > 1 && norm(corners.back() - corners.front()) <= noise_mm) corners.pop_back();
+  return corners;
+}
+
 /// Leaves out corners that stand off the line through their neighbours by no more than rounding: where a wall's
 /// diagonal crosses the contact height, say.
 std::vector<Vec2> without_false_corners(const std::vector<Vec2>& hull) {
@@ -88,7 +98,7 @@ std::vector<Vec2> convex_hull(std::vector<Vec2> points) {
   append_chain(hull, points.begin(), points.end());
   append_chain(hull, points.rbegin(), points.rend());
   hull = without_false_width(std::move(hull));
-  return hull.size() < 3 ? hull : without_false_corners(hull);
+  return hull.size() < 3 ? hull : without_false_corners(without_twins(hull));
 }
 
 }  // namespace aplomb::detail

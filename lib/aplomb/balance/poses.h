@@ -1,0 +1,55 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "aplomb/balance/balance_problem.h"
+#include "aplomb/balance/hanging.h"
+#include "aplomb/balance/standing.h"
+#include "aplomb/balance/standing_rows.h"
+
+namespace aplomb {
+
+/// One way in which a solid is to hold, on a plate or on threads.
+struct Pose {
+  std::string name{};  ///< for the report; none: "pose 1"
+  std::variant<StandingPose, HangingPose> way{};
+
+  const StandingPose* standing() const { return std::get_if<StandingPose>(&way); }
+  const HangingPose* hanging() const { return std::get_if<HangingPose>(&way); }
+  Vec3 up() const;
+};
+
+/// A sentence that names the pose, the field, its value and its range, or nothing. No pose at all is a problem.
+std::string find_problem(std::span<const Pose> poses);
+
+/// The rows of all poses, to be reached at one t.
+struct JointProblem {
+  BalanceProblem problem;
+  double required_t = 0;  ///< every pose holds as asked from here on
+  bool is_surplus = false;
+};
+
+/// Unites the rows of the poses. A single pose keeps its own t: tan(tip angle), or -tan(tilt). Of several, each with
+/// its own t_p asked for, t is what all exceed theirs by:
+///
+///     a_i - (t + t_p) b_i        required_t = 0, is_surplus
+///
+/// \pre  find_problem(poses) is empty.
+/// \return as support_polygon.
+Result<JointProblem> joint_problem(const TriangleMesh& outer, std::span<const Pose> poses, RowKind kind);
+
+/// How a body holds in a pose: Standing of a standing one, Hanging of a hanging one.
+using PoseMeasure = std::variant<Standing, Hanging>;
+
+/// \pre  find_problem({&pose, 1}) is empty; `body` as in measure_standing().
+/// \return as support_polygon.
+Result<PoseMeasure> measure_pose(const TriangleMesh& outer, std::span<const Region> body, const Pose& pose);
+
+/// Whether the angle that the pose asks for is reached (RowKind::robust: by the robust tip angle).
+/// \pre `measure` is of this pose.
+bool holds(const Pose& pose, const PoseMeasure& measure, RowKind kind);
+
+}  // namespace aplomb

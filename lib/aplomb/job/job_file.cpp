@@ -1,0 +1,276 @@
+#include "aplomb/job/job_file.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <span>
+
+namespace aplomb {
+namespace {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+constexpr double degree = std::numbers::pi / 180;
+constexpr std::array<const char*, 6> up_names{"x", "y", "z", "-x", "-y", "-z"};  // in UpAxis' order
+constexpr std::array<const char*, 3> aim_names{"least", "light", "stable"};      // in CarveAim's order
+
+template <std::size_t N>
+std::size_t index_of(const std::array<const char*, N>& names, const std::string& name) {
+  std::size_t i = 0;
+  while (i + 1 < N && name != names[i]) ++i;
+  return i;
+}
+
+Vec3 axis(std::size_t up_name) {
+  Vec3 v;
+  v[static_cast<int>(up_name % 3)] = up_name < 3 ? 1 : -1;
+  return v;
+}
+
+/// The degrees that are this angle to the last bit, as short as they can be; of an angle given in radians the nearest.
+double degrees_of(double angle_rad) {
+  const double nearest = angle_rad / degree;
+  const double rounded = std::strtod(fmt::format("{:.12g}", nearest).c_str(), nullptr);
+  for (const double candidate : {rounded, nearest, std::nextafter(nearest, -1e9), std::nextafter(nearest, 1e9)})
+    if (candidate * degree == angle_rad) return candidate;
+  return nearest;
+}
+
+Vec3 vec_of(const Json& json) { return {json[0].get<double>(), json[1].get<double>(), json[2].get<double>()}; }
+Json json_of(Vec3 v) { return Json::array({v.x, v.y, v.z}); }
+
+/// Puts what the JSON has into the fields it is shown. \pre The JSON has passed the schema.
+class Reader {
+ public:
+  Reader(const Json& json, const fs::path& folder) : json_(json), folder_(folder) {}
+
+  template <class T>
+  void value(const char* key, T& field) const {
+    if (const auto at = json_.find(key); at != json_.end()) field = at->template get<T>();
+  }
+  template <class T>
+  void value(const char* key, std::optional<T>& field) const {
+    if (const auto at = json_.find(key); at != json_.end()) field = at->template get<T>();
+  }
+  void path(const char* key, fs::path& field) const {
+    if (const auto at = json_.find(key); at != json_.end()) field = at->get<std::string>();
+    if (!field.empty() && field != "-" && field.is_relative() && json_.contains(key)) field = folder_ / field;
+  }
+  void angle(const char* key, double& field_rad) const {
+    if (const auto at = json_.find(key); at != json_.end()) field_rad = at->get<double>() * degree;
+  }
+  void turns(const char* key, std::vector<AxisTurn>& field) const {
+    if (const auto at = json_.find(key); at != json_.end()) field = turns_about_xyz(degree * vec_of(*at));
+  }
+  void direction(const char* key, Vec3& field) const {
+    const auto at = json_.find(key);
+    if (at == json_.end()) return;
+    field = at->is_string() ? axis(index_of(up_names, at->get<std::string>())) : vec_of(*at);
+    if (const double length = norm(field); length > 0 && std::abs(length - 1) > 1e-12) field = field / length;
+  }
+  void up(const char* key, std::optional<UpAxis>& field) const {
+    if (const auto at = json_.find(key); at != json_.end()) field = up_axis_named(at->get<std::string>());
+  }
+  void aim(const char* key, CarveAim& field) const {
+    if (const auto at = json_.find(key); at != json_.end())
+      field = static_cast<CarveAim>(index_of(aim_names, at->get<std::string>()));
+  }
+  void memory(const char* key, std::size_t& field_bytes) const {
+    if (const auto at = json_.find(key); at != json_.end())
+      field_bytes = static_cast<std::size_t>(std::llround(at->get<double>() * 1e6));
+  }
+  void preset(const char* key, double& field, std::optional<double> (*named)(std::string_view)) const {
+    if (const auto at = json_.find(key); at != json_.end()) field = named(at->get<std::string>()).value_or(field);
+  }
+  void points(const char* key, std::vector<Vec3>& field) const {
+    if (const auto at = json_.find(key); at != json_.end())
+      for (const Json& point : *at) field.push_back(vec_of(point));
+  }
+  void contacts(const char* key, std::vector<JobContact>& field) const {
+    if (const auto at = json_.find(key); at != json_.end())
+      for (const Json& contact : *at) {
+        field.push_back({vec_of(contact["at_mm"]), {}});
+        Reader(contact, folder_).value("radius_mm", field.back().radius_mm);
+      }
+  }
+  template <class Visit>
+  void group(const char* key, const Visit& visit) const {
+    if (const auto at = json_.find(key); at != json_.end()) visit(Reader(*at, folder_));
+  }
+  template <class VisitPose>
+  void poses(const char* key, std::vector<JobPose>& field, const VisitPose& visit) const {
+    const auto at = json_.find(key);
+    if (at == json_.end()) return;
+    field.clear();
+    for (const Json& pose : *at) {
+      field.emplace_back();
+      if (pose.contains("hang")) field.back().pose.way = HangingPose{};
+      visit(Reader(pose, folder_), field.back());
+    }
+  }
+
+ private:
+  const Json& json_;
+  const fs::path& folder_;
+};
+
+/// Puts the fields it is shown into JSON; what is not set has no key.
+class Writer {
+ public:
+  Writer(Json& json, const fs::path& folder) : json_(json), folder_(folder) {}
+
+  template <class T>
+  void value(const char* key, const T& field) const {
+    json_[key] = field;
+  }
+  void value(const char* key, const std::string& field) const {
+    if (!field.empty()) json_[key] = field;
+  }
+  template <class T>
+  void value(const char* key, const std::optional<T>& field) const {
+    if (field) json_[key] = *field;
+  }
+  void path(const char* key, const fs::path& field) const {
+    if (field.empty()) return;
+    json_[key] = field == "-" ? "-" : fs::proximate(fs::absolute(field), fs::absolute(folder_)).generic_string();
+  }
+  void angle(const char* key, double field_rad) const { json_[key] = degrees_of(field_rad); }
+  void turns(const char* key, const std::vector<AxisTurn>& field) const {
+    if (field.size() != 3) return;
+    json_[key] = Json::array();
+    for (const AxisTurn& turn : field) json_[key].push_back(degrees_of(turn.angle_rad));
+  }
+  void direction(const char* key, Vec3 field) const {
+    for (std::size_t i = 0; i < up_names.size(); ++i)
+      if (field == axis(i)) return void(json_[key] = up_names[i]);
+    json_[key] = json_of(field);
+  }
+  void up(const char* key, std::optional<UpAxis> field) const {
+    if (field) json_[key] = up_names[static_cast<std::size_t>(*field)];
+  }
+  void aim(const char* key, CarveAim field) const { json_[key] = aim_names[static_cast<std::size_t>(field)]; }
+  void memory(const char* key, std::size_t field_bytes) const { json_[key] = static_cast<double>(field_bytes) / 1e6; }
+  void preset(const char*, double, std::optional<double> (*)(std::string_view)) const {}  // its number is written
+  void points(const char* key, const std::vector<Vec3>& field) const {
+    json_[key] = Json::array();
+    for (const Vec3& point : field) json_[key].push_back(json_of(point));
+  }
+  void contacts(const char* key, const std::vector<JobContact>& field) const {
+    if (field.empty()) return;
+    json_[key] = Json::array();
+    for (const JobContact& contact : field) {
+      json_[key].push_back({{"at_mm", json_of(contact.center_mm)}});
+      if (contact.radius_mm) json_[key].back()["radius_mm"] = *contact.radius_mm;
+    }
+  }
+  template <class Visit>
+  void group(const char* key, const Visit& visit) const {
+    Json inner = Json::object();
+    visit(Writer(inner, folder_));
+    if (!inner.empty()) json_[key] = std::move(inner);
+  }
+  template <class VisitPose>
+  void poses(const char* key, std::vector<JobPose>& field, const VisitPose& visit) const {
+    json_[key] = Json::array();
+    for (JobPose& pose : field) {
+      Json inner = Json::object();
+      visit(Writer(inner, folder_), pose);
+      json_[key].push_back(std::move(inner));
+    }
+  }
+
+ private:
+  Json& json_;
+  const fs::path& folder_;
+};
+
+template <class Visitor>
+void visit_pose(const Visitor& v, JobPose& job) {
+  v.value("name", job.pose.name);
+  if (auto* standing = std::get_if<StandingPose>(&job.pose.way))
+    v.group("stand", [&](const Visitor& s) {
+      s.direction("up", standing->up);
+      s.angle("tip_deg", standing->required_tip_rad);
+      s.value("contact_height_mm", standing->contact_height_mm);
+      s.value("xy_error_mm", standing->xy_error_mm);
+      s.contacts("contacts", job.contacts);
+    });
+  else if (auto* hanging = std::get_if<HangingPose>(&job.pose.way))
+    v.group("hang", [&](const Visitor& h) {
+      h.direction("up", hanging->up);
+      h.points("from_mm", hanging->attachments_mm);
+      h.angle("tilt_deg", hanging->required_tilt_rad);
+      h.value("least_drop_mm", hanging->least_drop_mm);
+    });
+}
+
+/// The one table of what a job says.
+template <class Visitor>
+void visit_job(const Visitor& v, JobFile& job) {
+  v.path("model", job.model);
+  v.path("output", job.output);
+  v.path("report", job.report);
+  v.path("dump", job.dump);
+  v.group("place", [&](const Visitor& place) {
+    place.value("object", job.input.object);
+    place.up("up", job.input.placement.up);
+    place.turns("rotate_deg", job.input.placement.turns);
+    place.value("unit_mm", job.input.placement.unit_mm);
+    place.value("scale", job.input.placement.scale);
+    place.value("height_mm", job.input.placement.height_mm);
+  });
+  v.value("repair_force", job.input.repair.insist);
+  v.poses("poses", job.poses, [](const Visitor& p, JobPose& pose) { visit_pose(p, pose); });
+  v.value("robust", job.options.robust);
+  v.aim("aim", job.options.aim);
+  v.preset("process", job.options.wall_mm, wall_of_process);
+  v.value("wall_mm", job.options.wall_mm);
+  v.value("voxel_mm", job.options.voxel_mm);
+  v.value("least_void_mm", job.options.least_void_mm);
+  v.value("least_volume_mm3", job.options.least_volume_mm3);
+  v.value("best_effort", job.options.best_effort);
+  v.preset("material", job.options.density_g_per_cm3, density_of_material);
+  v.value("density_g_per_cm3", job.options.density_g_per_cm3);
+  v.memory("memory_mb", job.options.memory_bytes);
+  v.value("threads", job.threads);
+}
+
+}  // namespace
+
+Result<JobFile> parse_job(std::string_view text, const fs::path& folder) {
+  Json json;
+  try {
+    json = Json::parse(text);
+  } catch (const Json::exception& error) {  // "[json.exception.parse_error.101] parse error at line 1, ..."
+    const std::string what = error.what();
+    return fail(ErrorCode::invalid_option, "the job is no JSON:" + what.substr(what.find(']') + 1));
+  }
+  if (std::string problem = find_schema_problem(text); !problem.empty())
+    return fail(ErrorCode::invalid_option, std::move(problem));
+  JobFile job;
+  visit_job(Reader(json, folder), job);
+  job.input.read.memory_bytes = job.options.memory_bytes;
+  for (std::size_t i = 0; i < job.poses.size(); ++i)
+    if (std::string problem = find_problem(std::span(&job.poses[i].pose, 1)); !problem.empty())
+      return fail(ErrorCode::invalid_option,
+                  fmt::format("poses[{}].{}: {}", i, job.poses[i].pose.hanging() ? "hang" : "stand", problem));
+  if (std::string problem = find_problem(job); !problem.empty())
+    return fail(ErrorCode::invalid_option, std::move(problem));
+  const StandingPose* first = job.poses.front().pose.standing();
+  job.input.hint_at_resting = first && first->up == Vec3{0, 0, 1};
+  return job;
+}
+
+std::string to_json(const JobFile& job, const fs::path& folder) {
+  Json json{{"aplomb_job", 1}};
+  JobFile shown = job;  // one table of fields for both ways
+  visit_job(Writer(json, folder), shown);
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace aplomb

@@ -1,0 +1,73 @@
+#include <fmt/format.h>
+
+#include <array>
+#include <fstream>
+#include <utility>
+
+#include "aplomb/job/job_file.h"
+
+namespace aplomb {
+namespace {
+
+using Preset = std::pair<std::string_view, double>;
+
+template <std::size_t N>
+std::optional<double> value_named(const std::array<Preset, N>& presets, std::string_view name) {
+  for (const auto& [known, value] : presets)
+    if (known == name) return value;
+  return std::nullopt;
+}
+
+StandOptions without_contacts(const JobFile& job) {
+  StandOptions options = job.options;
+  options.poses.clear();
+  for (const JobPose& pose : job.poses) options.poses.push_back(pose.pose);
+  return options;
+}
+
+}  // namespace
+
+std::optional<double> density_of_material(std::string_view name) {
+  constexpr std::array<Preset, 7> densities{Preset{"pla", 1.24}, {"petg", 1.27},  {"abs", 1.04}, {"asa", 1.07},
+                                            {"tpu", 1.22},       {"resin", 1.15}, {"pa12", 1.01}};
+  return value_named(densities, name);
+}
+
+std::optional<double> wall_of_process(std::string_view name) {
+  constexpr std::array<Preset, 4> walls{Preset{"fdm", 1.6}, {"sla", 2.0}, {"powder", 1.5}, {"binder", 3.0}};
+  return value_named(walls, name);
+}
+
+StandOptions stand_options(const JobFile& job, double height_mm) {
+  StandOptions options = without_contacts(job);
+  for (std::size_t i = 0; i < job.poses.size(); ++i)
+    if (auto* standing = std::get_if<StandingPose>(&options.poses[i].way))
+      for (const JobContact& contact : job.poses[i].contacts)
+        standing->contacts.push_back({contact.center_mm, contact.radius_mm.value_or(0.05 * height_mm)});
+  return options;
+}
+
+std::string find_problem(const JobFile& job) {
+  for (std::string problem : {find_problem(job.input.placement), find_problem(job.input.repair),
+                              find_problem(job.input.read), find_problem(stand_options(job, 1))})
+    if (!problem.empty()) return problem;
+  if (job.threads < 0) return fmt::format("threads is {}; it must be at least 0", job.threads);
+  return {};
+}
+
+Result<JobFile> read_job(const std::filesystem::path& file) {
+  constexpr std::streamsize most_bytes = 1'000'000;
+  std::ifstream stream(file, std::ios::binary);
+  std::string text(static_cast<std::size_t>(most_bytes + 1), '\0');
+  stream.read(text.data(), most_bytes + 1);
+  if (stream.bad() || (stream.gcount() == 0 && !stream.eof()))
+    return fail(ErrorCode::file_system, fmt::format("{}: the job cannot be read", file.string()));
+  if (stream.gcount() > most_bytes)
+    return fail(ErrorCode::invalid_option, fmt::format("{}: a job has at most 1 MB", file.string()));
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  auto job = parse_job(text, file.parent_path());
+  if (!job) return fail(job.error().code, fmt::format("{}: {}", file.string(), job.error().message));
+  return job;
+}
+
+}  // namespace aplomb

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "arguments.h"
+
+// The flags by what they are about. Each is bound to a field of the Arguments, which must outlive the app.
+
+namespace aplomb::cli {
+
+/// The model and how it is placed and repaired.
+void add_input_flags(CLI::App* app, Arguments& a);
+
+/// How it is to stand: what may touch, and the angle.
+void add_standing_flags(CLI::App* app, Arguments& a, StandingPose& pose);
+
+/// What it hangs from, and how level.
+void add_hanging_flags(CLI::App* app, HangingPose& pose);
+
+/// Wall, aim, grid and output of what is carved.
+void add_carving_flags(CLI::App* app, Arguments& a);
+
+/// Material, report, threads, memory, quiet: what every run has.
+void add_run_flags(CLI::App* app, Arguments& a);
+
+}  // namespace aplomb::cli
