@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "aplomb/attempt.h"
 #include "aplomb/balance/resting.h"
 #include "aplomb/mesh/bodies.h"
 #include "aplomb/report/text.h"
@@ -15,8 +16,6 @@ namespace aplomb {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
-constexpr double aimed_beyond_rad = 0.004 * degree;  // what simplifying the shell may cost
-constexpr int most_carvings = 3;
 
 std::string several_prints(const std::vector<TriangleMesh>& prints) {
   std::string list;
@@ -60,8 +59,6 @@ std::array<Region, 1> uniform_body(const Moments& body, const StandOptions& opti
   return {Region{body, options.density_g_per_cm3, 0.02}};
 }
 
-RowKind kind_of(const StandOptions& options) { return options.robust ? RowKind::robust : RowKind::nominal; }
-
 Result<std::vector<PoseMeasure>> measure_poses(const TriangleMesh& outer, const Moments& body,
                                                const StandOptions& options) {
   std::vector<PoseMeasure> measures;
@@ -87,33 +84,6 @@ Result<Report> begin_report(const Input& input, const StandOptions& options) {
   report.mesh =
       MeshFigures{input.repair.outer_unchanged, true, 0, input.solid.voids(), input.solid.mesh().triangles.size()};
   return report;
-}
-
-struct CarvedShell {
-  Carving carving;
-  std::optional<Shell> shell;
-};
-
-/// Carves and builds the shell; where simplifying it cost more than was aimed beyond, carves again for as much more.
-Result<CarvedShell> carve_shell(const SolidVolume& volume, const Input& input, const JointProblem& joint,
-                                const StandOptions& options, StageClock& clock, const Job& job) {
-  const double required_rad = std::atan(joint.required_t);
-  double aimed_rad = required_rad + aimed_beyond_rad;
-  for (int round = 1;; ++round) {
-    const CarveOptions carving_options{options.aim, std::tan(aimed_rad), options.least_volume_mm3};
-    auto carving = carve(volume, input.moments, joint.problem, carving_options, job.part(0, 0.3));
-    if (!carving) return tl::unexpected(carving.error());
-    clock.lap("carve");
-    carving->reaches = carving->t >= joint.required_t;
-    if (!carving->reaches && !options.best_effort) return CarvedShell{std::move(*carving), std::nullopt};
-    auto shell = build_shell(input.solid, carving->field, {.wall_mm = options.wall_mm}, job.part(0.3, 1));
-    if (!shell) return tl::unexpected(shell.error());
-    clock.lap("shell");
-    const double short_rad = required_rad - std::atan(largest_t(joint.problem, moments(shell->mesh)));
-    if (short_rad <= 0 || !carving->reaches || options.aim == CarveAim::stable || round == most_carvings)
-      return CarvedShell{std::move(*carving), std::move(*shell)};
-    aimed_rad += short_rad + aimed_beyond_rad;
-  }
 }
 
 CarvingFigures carving_figures(const Carving& carving, const Input& input, const JointProblem& joint,
@@ -156,10 +126,37 @@ void add_remedies(Report& report, const Input& input, const JointProblem& joint,
     report.hints.push_back(fmt::format("on a round pedestal {:.3g} mm across and {:.3g} mm thick it would stand",
                                        2 * report.after->pedestal->radius_mm, report.after->pedestal->thickness_mm));
   report.hints.push_back(report.has_standing_pose()
-                             ? "a wider base, or a pose that leans less, would help; bending the surface is not in "
-                               "this version"
-                             : "another point to hang from, nearer to straight above the centre of mass, would help; "
-                               "bending the surface is not in this version");
+                             ? "a wider base, or a pose that leans less, would help"
+                             : "another point to hang from, nearer to straight above the centre of mass, would help");
+  if (options.deform == Deform::never) report.hints.push_back("bending the surface a little would help: --deform auto");
+  else if (report.deformation && report.deformation->outcome == "limit")
+    report.hints.push_back("a larger --deform-limit or --trim-base would allow more");
+}
+
+/// Says of a run what was made: of the solid alone where nothing was carved.
+Result<StandRun> finish(StandRun run, const Input& shaped, std::optional<Attempt> made, const StandOptions& options,
+                        StageClock& clock, const Job& job, const StageViewer& view) {
+  Report& report = run.report;
+  if (made) {
+    report.carving = carving_figures(made->carving, shaped, made->joint, options);
+    run.shell = std::move(made->shell);
+    run.carving = std::move(made->carving);
+  } else {
+    run.shell = Shell{shaped.solid.mesh(), shaped.solid.mesh().triangles.size(), 0, 0, 0};
+  }
+  if (view && run.shell) view("5-shell", run.shell->mesh);
+  auto after = measure_poses(shaped.solid.mesh(), run.carving ? run.carving->body : shaped.moments, options);
+  if (!after) return tl::unexpected(after.error());
+  set_after(report, std::move(*after), kind_of(options));
+  const bool reaches = run.carving ? run.carving->reaches : all_hold(report);
+  report.outcome = reaches ? Outcome::stands : Outcome::best_effort;
+  if (run.shell && run.carving) report.wall = WallFigures{options.wall_mm, run.shell->wall_mm};
+  if (!reaches && made) {
+    clock.lap("measure");
+    add_remedies(report, shaped, made->joint, options, job);
+    clock.lap("advise");
+  }
+  return run;
 }
 
 }  // namespace
@@ -199,6 +196,7 @@ std::string find_problem(const StandOptions& o) {
     if (std::string problem = find_problem(VolumeOptions{o.wall_mm, *o.voxel_mm, o.least_void_mm, o.memory_bytes});
         !problem.empty())
       return problem;
+  if (std::string problem = find_problem(o.reshape); !problem.empty()) return problem;
   return find_problem(CarveOptions{o.aim, 0, o.least_volume_mm3});
 }
 
@@ -219,34 +217,23 @@ Result<StandRun> stand(const Input& input, const StandOptions& options, const Jo
     return run;
   }
 
-  const double voxel = voxel_mm(options, input.solid.box());
-  const auto volume =
-      voxelize(input.solid, {options.wall_mm, voxel, std::min(options.least_void_mm, 32 * voxel), options.memory_bytes},
-               job.part(0, 0.4));
-  if (!volume) return tl::unexpected(volume.error());
-  clock.lap("voxelize");
-
-  const auto joint = joint_problem(input.solid.mesh(), options.poses, kind_of(options));
-  if (!joint) return tl::unexpected(joint.error());
-  auto carved = carve_shell(*volume, input, *joint, options, clock, job.part(0.4, 0.9));
-  if (!carved) return tl::unexpected(carved.error());
-  run.shell = std::move(carved->shell);
-  run.carving = std::move(carved->carving);
-  if (view && run.shell) view("4-shell", run.shell->mesh);
-
-  const Carving& carving = *run.carving;
-  auto after = measure_poses(input.solid.mesh(), carving.body, options);
-  if (!after) return tl::unexpected(after.error());
-  set_after(report, std::move(*after), kind_of(options));
-  report.outcome = carving.reaches ? Outcome::stands : Outcome::best_effort;
-  report.carving = carving_figures(carving, input, *joint, options);
-  if (run.shell) report.wall = WallFigures{options.wall_mm, run.shell->wall_mm};
-  if (!carving.reaches) {
-    clock.lap("measure");
-    add_remedies(report, input, *joint, options, job.part(0.9, 1));
-    clock.lap("advise");
+  Input shaped = input;
+  std::optional<Attempt> made;
+  if (options.deform != Deform::only) {
+    auto carved = attempt_carving(input, options, clock, job.part(0, options.deform == Deform::never ? 0.9 : 0.4));
+    if (!carved) return tl::unexpected(carved.error());
+    made = std::move(*carved);
   }
-  return run;
+  if (options.deform != Deform::never && !(made && made->carving.reaches)) {
+    auto reshaped = attempt_reshaping(input, options, clock, job.part(0.4, 0.9));
+    if (!reshaped) return tl::unexpected(reshaped.error());
+    shaped = std::move(reshaped->input);
+    made = std::move(reshaped->attempt);
+    report.deformation = std::move(reshaped->figures);
+    report.mesh->outer_unchanged = false;
+    if (view) view("4-reshaped", shaped.solid.mesh());
+  }
+  return finish(std::move(run), shaped, std::move(made), options, clock, job.part(0.9, 1), view);
 }
 
 Result<Report> check(const Input& input, const StandOptions& options, const Job& job) {
@@ -280,7 +267,7 @@ Result<Report> measure_output(const TriangleMesh& written, const StandRun& run, 
   auto after = measure_poses(written, solid->solid->moments(), options);
   if (!after) return tl::unexpected(after.error());
   set_after(report, std::move(*after), kind_of(options));
-  if (report.carving) report.outcome = all_hold(report) ? Outcome::stands : Outcome::best_effort;
+  if (report.carving || report.deformation) report.outcome = all_hold(report) ? Outcome::stands : Outcome::best_effort;
   return report;
 }
 

@@ -8,6 +8,7 @@
 
 #include "aplomb/balance/poses.h"
 #include "aplomb/carve/carve.h"
+#include "aplomb/deform/reshape.h"
 #include "aplomb/io/read_mesh.h"
 #include "aplomb/mesh/placement.h"
 #include "aplomb/mesh/repair.h"
@@ -45,10 +46,19 @@ using StageViewer = std::function<void(std::string_view name, const TriangleMesh
 Result<Input> load_solid(const std::filesystem::path& path, const InputOptions& options, const Job& job = {},
                          const StageViewer& view = {});
 
+/// Whether the outside may change.
+enum class Deform {
+  never,      ///< voids only: every triangle of the outside stays
+  automatic,  ///< where no void serves
+  only,       ///< and nothing is carved
+};
+
 struct StandOptions {
   std::vector<Pose> poses{Pose{}};  ///< all of them are to hold at once, each at its required angle; not empty
   bool robust = false;              ///< asked of the robust tip angles instead of the nominal ones
   CarveAim aim = CarveAim::least;
+  Deform deform = Deform::never;
+  ReshapeOptions reshape = {};          ///< its wall_mm and carves follow from the rest
   double wall_mm = 1.6;                 ///< > 0; four lines of a 0.4 mm nozzle
   std::optional<double> voxel_mm = {};  ///< none: at least 4 voxels in the wall and about 256 on the diagonal
   double least_void_mm = 1;             ///< no void narrower, >= 0

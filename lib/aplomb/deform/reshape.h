@@ -12,11 +12,11 @@
 namespace aplomb {
 
 struct ReshapeOptions {
-  double most_mean_ratio = 0.05;        ///< of the height: the mean displacement of a bend, in (0, 1]
+  double most_mean_ratio = 0.05;         ///< of the height: the mean displacement of a bend, in (0, 1]
   std::optional<double> most_trim_mm{};  ///< what may be cut off the base, >= 0; none: 1 % of the height
-  std::vector<KeptBall> kept{};         ///< radii > 0
-  double wall_mm = 2;                   ///< > 0
-  bool carves = true;                   ///< false: the solid stays solid, and the bend does it all
+  std::vector<KeptBall> kept{};          ///< radii > 0
+  double wall_mm = 2;                    ///< > 0
+  bool carves = true;                    ///< false: the solid stays solid, and the bend does it all
 };
 
 /// A sentence that names field, value and range; empty when there is nothing to say.
@@ -25,12 +25,12 @@ std::string find_problem(const ReshapeOptions& options);
 /// What was done to the outside.
 struct Reshaping {
   SolidMesh solid;
-  double trim_mm = 0;           ///< cut off the base
-  std::optional<Bent> bent{};   ///< none where the cut alone serves
+  double trim_mm = 0;          ///< cut off the base
+  std::optional<Bent> bent{};  ///< none where the cut alone serves
 };
 
-/// Changes the outside of a solid as little as makes it hold its poses where no void does: a cut off the base first, which
-/// nobody sees, then a bend (Bender). The base is cut where there is one pose and it stands on z = 0 upward.
+/// Changes the outside of a solid as little as makes it hold its poses where no void does: a cut off the base first,
+/// which nobody sees, then a bend (Bender). The base is cut where there is one pose and it stands on z = 0 upward.
 class Reshaper {
  public:
   /// \pre  find_problem(options) and find_problem(poses) are empty.

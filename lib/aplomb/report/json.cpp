@@ -82,6 +82,20 @@ Json json(const CarvingFigures& c) {
           {"planes", c.planes}};
 }
 
+Json json(const DeformationFigures& d) {
+  Json trims = Json::array();
+  for (const auto& [trim_mm, tip_rad] : d.trims) trims.push_back({{"trim_mm", trim_mm}, {"tip_deg", degrees(tip_rad)}});
+  return {{"outcome", d.outcome},
+          {"max_mm", d.max_mm},
+          {"mean_mm", d.mean_mm},
+          {"max_turn_deg", degrees(d.max_turn_rad)},
+          {"volume_change_percent", 100 * d.volume_change_ratio},
+          {"iterations", d.iterations},
+          {"energy", d.energy_mm3},
+          {"trim_mm", d.trim_mm},
+          {"trims", trims}};
+}
+
 Json json(const MeshFigures& m) {
   return {{"outer_unchanged", m.outer_unchanged},
           {"closed", m.closed},
@@ -116,6 +130,7 @@ std::string to_json(const Report& report) {
   object["poses"] = Json::array();
   for (std::size_t i = 0; i < report.poses.size(); ++i) object["poses"].push_back(json(report.poses[i], i + 1));
   if (report.carving) object["carving"] = json(*report.carving);
+  if (report.deformation) object["deformation"] = json(*report.deformation);
   if (report.wall) object["wall_mm"] = {{"required", report.wall->required_mm}, {"measured", report.wall->measured_mm}};
   if (report.mesh) object["mesh"] = json(*report.mesh);
   object["repair"] = report.repair;

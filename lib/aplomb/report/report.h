@@ -35,6 +35,23 @@ struct CarvingFigures {
   BoundOf bound_of = BoundOf::tip;
 };
 
+/// What was done to the outside.
+struct DeformationFigures {
+  struct Trim {
+    double trim_mm = 0;
+    double tip_rad = 0;  ///< what carving would reach, estimated
+  };
+  std::string outcome;  ///< "trimmed" (the cut alone serves), "reached", "limit" (of the mean displacement), "stuck"
+  double trim_mm = 0;   ///< cut off the base
+  std::vector<Trim> trims;  ///< what cuts would gain
+  double mean_mm = 0;       ///< displacement, weighted by the solid's volume
+  double max_mm = 0;        ///< of a vertex of the surface
+  double max_turn_rad = 0;
+  double volume_change_ratio = 0;  ///< of the solid, the cut included
+  int iterations = 0;
+  double energy_mm3 = 0;
+};
+
 /// How one pose holds.
 struct PoseReport {
   Pose pose;
@@ -65,6 +82,7 @@ struct Report {
   std::optional<Standing> after;  ///< of the first standing pose
   std::vector<PoseReport> poses;  ///< every pose, in the order in which they were asked for
   std::optional<CarvingFigures> carving;
+  std::optional<DeformationFigures> deformation;
   std::optional<WallFigures> wall;
   std::optional<MeshFigures> mesh;
   std::vector<std::string> repair;  ///< what was wrong with the input and what was decided, a sentence each

@@ -106,8 +106,31 @@ std::string bound(const CarvingFigures& carving) {
   return "no void exceeds every pose by more than " + degrees(carving.bound_rad) + " degrees";
 }
 
+/// The trims that people ask for: 0.5, 1 and 2 mm.
+std::string gains(const DeformationFigures& d) {
+  std::string text;
+  for (const auto& [trim_mm, tip_rad] : d.trims)
+    if (trim_mm == 0 || trim_mm == 0.5 || trim_mm == 1 || trim_mm == 2)
+      text += (text.empty() ? "carved it would reach " : ", ") + degrees(tip_rad) + " degrees with " + figure(trim_mm) +
+              " mm off the base";
+  return text;
+}
+
+std::string bending(const DeformationFigures& d) {
+  std::string text;
+  if (d.trim_mm > 0) text += line("base", figure(d.trim_mm) + " mm cut off");
+  if (!d.trims.empty()) text += line("", gains(d));
+  if (d.outcome == "trimmed") return text;
+  const std::string end = d.outcome == "limit"   ? ": all that the limit allows"
+                          : d.outcome == "stuck" ? ": no better shape was found"
+                                                 : "";
+  return text + line("bent", figure(d.mean_mm) + " mm on average, " + figure(d.max_mm) +
+                                 " mm at most, turned by up to " + degrees(d.max_turn_rad) + " degrees" + end);
+}
+
 std::string work(const Report& report) {
   std::string text;
+  if (report.deformation) text += bending(*report.deformation);
   if (report.carving)
     text += line("void", figure(report.carving->void_mm3 * 1e-3) + " cm3; " + bound(*report.carving) + " (aim " +
                              report.carving->aim + ", " + std::to_string(report.carving->planes) + " planes)");

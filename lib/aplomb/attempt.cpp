@@ -1,0 +1,110 @@
+#include "aplomb/attempt.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace aplomb {
+namespace {
+
+constexpr double aimed_beyond_rad = 0.004 * std::numbers::pi / 180;  // what simplifying the shell may cost
+constexpr int most_carvings = 3;
+constexpr int most_reshapings = 3;
+
+Result<Attempt> carve_shell(const SolidVolume& volume, const Input& input, const JointProblem& joint,
+                            const StandOptions& options, StageClock& clock, const Job& job) {
+  const double required_rad = std::atan(joint.required_t);
+  double aimed_rad = required_rad + aimed_beyond_rad;
+  for (int round = 1;; ++round) {
+    const CarveOptions carving_options{options.aim, std::tan(aimed_rad), options.least_volume_mm3};
+    auto carving = carve(volume, input.moments, joint.problem, carving_options, job.part(0, 0.3));
+    if (!carving) return tl::unexpected(carving.error());
+    clock.lap("carve");
+    carving->reaches = carving->t >= joint.required_t;
+    if (!carving->reaches && !options.best_effort) return Attempt{joint, std::move(*carving), std::nullopt};
+    auto shell = build_shell(input.solid, carving->field, {.wall_mm = options.wall_mm}, job.part(0.3, 1));
+    if (!shell) return tl::unexpected(shell.error());
+    clock.lap("shell");
+    const double short_rad = required_rad - std::atan(largest_t(joint.problem, moments(shell->mesh)));
+    if (short_rad <= 0 || !carving->reaches || options.aim == CarveAim::stable || round == most_carvings)
+      return Attempt{joint, std::move(*carving), std::move(*shell)};
+    aimed_rad += short_rad + aimed_beyond_rad;
+  }
+}
+
+DeformationFigures figures_of(const Reshaper& reshaper, const Reshaping& reshaping) {
+  constexpr std::array<const char*, 3> outcomes{"reached", "limit", "stuck"};
+  DeformationFigures figures;
+  figures.outcome = "trimmed";
+  figures.trim_mm = reshaping.trim_mm;
+  for (const TrimGain& gain : reshaper.gains()) figures.trims.push_back({gain.trim_mm, std::atan(gain.t)});
+  if (!reshaping.bent) return figures;
+  const CageDeformation& cage = reshaping.bent->cage;
+  figures.outcome = outcomes[static_cast<std::size_t>(cage.outcome)];
+  figures.mean_mm = reshaping.bent->path_ratio * cage.mean_mm;
+  figures.max_mm = reshaping.bent->max_mm;
+  figures.max_turn_rad = cage.max_turn_rad;
+  figures.iterations = cage.iterations;
+  figures.energy_mm3 = cage.energy_mm3;
+  return figures;
+}
+
+/// The same input with another solid.
+Input with_solid(Input input, const SolidMesh& solid) {
+  input.solid = solid;
+  input.moments = solid.moments();
+  return input;
+}
+
+/// How far short of its angle a reshaped solid ends, and what the last try beyond it was.
+double shortfall_t(const ReshapedAttempt& reshaped, const JointProblem& joint) {
+  const Moments body = reshaped.attempt ? reshaped.attempt->carving.body : reshaped.input.moments;
+  return joint.required_t - largest_t(joint.problem, body);
+}
+
+}  // namespace
+
+RowKind kind_of(const StandOptions& options) { return options.robust ? RowKind::robust : RowKind::nominal; }
+
+Result<Attempt> attempt_carving(const Input& input, const StandOptions& options, StageClock& clock, const Job& job) {
+  const double voxel = voxel_mm(options, input.solid.box());
+  const auto volume =
+      voxelize(input.solid, {options.wall_mm, voxel, std::min(options.least_void_mm, 32 * voxel), options.memory_bytes},
+               job.part(0, 0.4));
+  if (!volume) return tl::unexpected(volume.error());
+  clock.lap("voxelize");
+  const auto joint = joint_problem(input.solid.mesh(), options.poses, kind_of(options));
+  if (!joint) return tl::unexpected(joint.error());
+  return carve_shell(*volume, input, *joint, options, clock, job.part(0.4, 1));
+}
+
+Result<ReshapedAttempt> attempt_reshaping(const Input& input, const StandOptions& options, StageClock& clock,
+                                          const Job& job) {
+  ReshapeOptions reshaping_options = options.reshape;
+  reshaping_options.wall_mm = options.wall_mm;
+  reshaping_options.carves = options.deform != Deform::only;
+  const auto reshaper =
+      Reshaper::make(input.solid, options.poses, kind_of(options), reshaping_options, job.part(0, 0.2));
+  if (!reshaper) return tl::unexpected(reshaper.error());
+  double beyond_t = 0;
+  for (int round = 1;; ++round) {
+    const Job part = job.part(0.2 + 0.8 * (round - 1) / most_reshapings, 0.2 + 0.8 * round / most_reshapings);
+    const auto reshaping = reshaper->reshape(beyond_t, part.part(0, 0.4));
+    if (!reshaping) return tl::unexpected(reshaping.error());
+    clock.lap("deform");
+    ReshapedAttempt made{with_solid(input, reshaping->solid), figures_of(*reshaper, *reshaping), std::nullopt};
+    made.figures.volume_change_ratio = made.input.moments.volume_mm3 / input.moments.volume_mm3 - 1;
+    if (reshaping_options.carves) {
+      auto attempt = attempt_carving(made.input, options, clock, part.part(0.4, 1));
+      if (!attempt) return tl::unexpected(attempt.error());
+      made.attempt = std::move(*attempt);
+    }
+    const auto joint = joint_problem(made.input.solid.mesh(), options.poses, kind_of(options));
+    if (!joint) return tl::unexpected(joint.error());
+    const double short_t = shortfall_t(made, *joint);
+    const bool at_limit = made.figures.outcome == "limit" || made.figures.outcome == "stuck";
+    if (short_t <= 0 || at_limit || round == most_reshapings) return made;
+    beyond_t += short_t + std::tan(aimed_beyond_rad);
+  }
+}
+
+}  // namespace aplomb

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <optional>
+
+#include "aplomb/core/stage_clock.h"
+#include "aplomb/pipeline.h"
+
+// Steps of the pipeline between a solid and its shell; stand() chooses among them.
+
+namespace aplomb {
+
+/// One carving of one solid.
+struct Attempt {
+  JointProblem joint;
+  Carving carving;
+  std::optional<Shell> shell;  ///< none when it does not reach and no best effort was asked for
+};
+
+/// Voxelises, carves and builds the shell; where simplifying it cost more than was aimed beyond, carves again for as
+/// much more. \return as voxelize(), joint_problem(), carve() and build_shell().
+Result<Attempt> attempt_carving(const Input& input, const StandOptions& options, StageClock& clock, const Job& job);
+
+/// A solid whose outside was changed, and what was made of it.
+struct ReshapedAttempt {
+  Input input;  ///< of the changed solid
+  DeformationFigures figures;
+  std::optional<Attempt> attempt;  ///< none when it is not to be carved
+};
+
+/// Changes the outside as little as it takes (Reshaper), then carves; what the final shell comes short of is asked for in
+/// addition, twice at most. \return as Reshaper's functions and attempt_carving().
+Result<ReshapedAttempt> attempt_reshaping(const Input& input, const StandOptions& options, StageClock& clock,
+                                          const Job& job);
+
+RowKind kind_of(const StandOptions& options);
+
+}  // namespace aplomb
