@@ -20,12 +20,12 @@ Result<Attempt> carve_shell(const SolidVolume& volume, const Input& input, const
     if (!carving) return tl::unexpected(carving.error());
     clock.lap("carve");
     carving->reaches = carving->t >= joint.required_t;
-    if (!carving->reaches && !options.best_effort) return Attempt{joint, std::move(*carving), std::nullopt};
+    if (!carving->reaches) return Attempt{joint, std::move(*carving), std::nullopt};
     auto shell = build_shell(input.solid, carving->field, {.wall_mm = options.wall_mm}, job.part(0.3, 1));
     if (!shell) return tl::unexpected(shell.error());
     clock.lap("shell");
     const double short_rad = required_rad - std::atan(largest_t(joint.problem, moments(shell->mesh)));
-    if (short_rad <= 0 || !carving->reaches || options.aim == CarveAim::stable || round == most_carvings)
+    if (short_rad <= 0 || options.aim == CarveAim::stable || round == most_carvings)
       return Attempt{joint, std::move(*carving), std::move(*shell)};
     aimed_rad += short_rad + aimed_beyond_rad;
   }
@@ -55,9 +55,11 @@ Input with_solid(Input input, const SolidMesh& solid) {
   return input;
 }
 
-/// How far short of its angle a reshaped solid ends, and what the last try beyond it was.
+/// How far short of its angle a reshaped solid ends.
 double shortfall_t(const ReshapedAttempt& reshaped, const JointProblem& joint) {
-  const Moments body = reshaped.attempt ? reshaped.attempt->carving.body : reshaped.input.moments;
+  Moments body = reshaped.input.moments;
+  if (reshaped.attempt) body = reshaped.attempt->carving.body;
+  if (reshaped.attempt && reshaped.attempt->shell) body = moments(reshaped.attempt->shell->mesh);
   return joint.required_t - largest_t(joint.problem, body);
 }
 
@@ -75,6 +77,15 @@ Result<Attempt> attempt_carving(const Input& input, const StandOptions& options,
   const auto joint = joint_problem(input.solid.mesh(), options.poses, kind_of(options));
   if (!joint) return tl::unexpected(joint.error());
   return carve_shell(*volume, input, *joint, options, clock, job.part(0.4, 1));
+}
+
+Result<void> add_shell(Attempt& attempt, const Input& input, const StandOptions& options, StageClock& clock,
+                       const Job& job) {
+  auto shell = build_shell(input.solid, attempt.carving.field, {.wall_mm = options.wall_mm}, job);
+  if (!shell) return tl::unexpected(shell.error());
+  attempt.shell = std::move(*shell);
+  clock.lap("shell");
+  return {};
 }
 
 Result<ReshapedAttempt> attempt_reshaping(const Input& input, const StandOptions& options, StageClock& clock,

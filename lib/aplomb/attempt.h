@@ -13,12 +13,18 @@ namespace aplomb {
 struct Attempt {
   JointProblem joint;
   Carving carving;
-  std::optional<Shell> shell;  ///< none when it does not reach and no best effort was asked for
+  std::optional<Shell> shell;  ///< where it reaches, or add_shell() was called
 };
 
 /// Voxelises, carves and builds the shell; where simplifying it cost more than was aimed beyond, carves again for as
 /// much more. \return as voxelize(), joint_problem(), carve() and build_shell().
+///
+/// The shell is left out where the carving does not reach: see add_shell().
 Result<Attempt> attempt_carving(const Input& input, const StandOptions& options, StageClock& clock, const Job& job);
+
+/// Builds the shell of a carving that does not reach. \return as build_shell().
+Result<void> add_shell(Attempt& attempt, const Input& input, const StandOptions& options, StageClock& clock,
+                       const Job& job);
 
 /// A solid whose outside was changed, and what was made of it.
 struct ReshapedAttempt {
@@ -27,8 +33,8 @@ struct ReshapedAttempt {
   std::optional<Attempt> attempt;  ///< none when it is not to be carved
 };
 
-/// Changes the outside as little as it takes (Reshaper), then carves; what the final shell comes short of is asked for in
-/// addition, twice at most. \return as Reshaper's functions and attempt_carving().
+/// Changes the outside as little as it takes (Reshaper), then carves; what the final shell comes short of is asked for
+/// in addition, twice at most. \return as Reshaper's functions and attempt_carving().
 Result<ReshapedAttempt> attempt_reshaping(const Input& input, const StandOptions& options, StageClock& clock,
                                           const Job& job);
 

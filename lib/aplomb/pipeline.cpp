@@ -220,12 +220,12 @@ Result<StandRun> stand(const Input& input, const StandOptions& options, const Jo
   Input shaped = input;
   std::optional<Attempt> made;
   if (options.deform != Deform::only) {
-    auto carved = attempt_carving(input, options, clock, job.part(0, options.deform == Deform::never ? 0.9 : 0.4));
+    auto carved = attempt_carving(input, options, clock, job.part(0, options.deform == Deform::never ? 0.8 : 0.4));
     if (!carved) return tl::unexpected(carved.error());
     made = std::move(*carved);
   }
   if (options.deform != Deform::never && !(made && made->carving.reaches)) {
-    auto reshaped = attempt_reshaping(input, options, clock, job.part(0.4, 0.9));
+    auto reshaped = attempt_reshaping(input, options, clock, job.part(0.4, 0.8));
     if (!reshaped) return tl::unexpected(reshaped.error());
     shaped = std::move(reshaped->input);
     made = std::move(reshaped->attempt);
@@ -233,6 +233,9 @@ Result<StandRun> stand(const Input& input, const StandOptions& options, const Jo
     report.mesh->outer_unchanged = false;
     if (view) view("4-reshaped", shaped.solid.mesh());
   }
+  if (made && !made->shell && options.best_effort)
+    if (const auto shell = add_shell(*made, shaped, options, clock, job.part(0.8, 0.9)); !shell)
+      return tl::unexpected(shell.error());
   return finish(std::move(run), shaped, std::move(made), options, clock, job.part(0.9, 1), view);
 }
 

@@ -72,7 +72,10 @@ Parsed parse_arguments(int argc, char** argv) {
     add_input_flags(sub, a);
     if (command == Command::check || command == Command::stand) add_standing_flags(sub, a, standing);
     if (command == Command::hang) add_hanging_flags(sub, hanging);
-    if (command == Command::stand || command == Command::hang) add_carving_flags(sub, a);
+    if (command == Command::stand || command == Command::hang) {
+      add_carving_flags(sub, a);
+      add_reshaping_flags(sub, a);
+    }
     add_run_flags(sub, a);
   }
   app.footer("Exit: 0 stands; 1 usage; 2 input unusable; 3 cannot stand; 4 cancelled; 5 over budget; 7 internal.");

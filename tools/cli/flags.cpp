@@ -83,6 +83,36 @@ void add_carving_flags(CLI::App* app, Arguments& a) {
   app->add_option("--save-job", a.save_job, "write this command as a job file, for aplomb run");
 }
 
+void add_reshaping_flags(CLI::App* app, Arguments& a) {
+  StandOptions& options = a.job.options;
+  static const std::map<std::string, Deform> modes{
+      {"never", Deform::never}, {"auto", Deform::automatic}, {"only", Deform::only}};
+  add_choice(
+      app, "--deform", {"never", "auto", "only"},
+      [&options](const std::string& name) { options.deform = modes.at(name); },
+      "whether the outside may change: never (default); auto: where no void serves; only: instead of carving");
+  add_quantity(app, "--deform-limit", options.reshape.most_mean_percent, percentages,
+               "mean displacement of a bend, of the height (default 5%)");
+  app->add_option_function<std::string>(
+      "--trim-base",
+      [&options](const std::string& text) {
+        if (text == "auto") return;
+        options.reshape.most_trim_mm = parse_quantity(text, lengths);
+        if (!options.reshape.most_trim_mm)
+          throw CLI::ValidationError("--trim-base", "'" + text + "' is neither auto nor a length such as 1mm");
+      },
+      "how much may be cut off the base before bending: auto (1 % of the height, default), 0 or a length");
+  app->add_option_function<std::vector<std::string>>(
+      "--keep",
+      [&options](const std::vector<std::string>& texts) {
+        for (const std::string& text : texts) {
+          const auto n = numbers_of("--keep", text, 4, 4, "X,Y,Z,R in mm");
+          options.reshape.kept.push_back({{n[0], n[1], n[2]}, n[3]});
+        }
+      },
+      "a ball X,Y,Z,R in mm that a bend leaves in shape, such as a face");
+}
+
 void add_run_flags(CLI::App* app, Arguments& a) {
   add_choice(
       app, "--material", {"pla", "petg", "abs", "asa", "tpu", "resin", "pa12"},

@@ -20,6 +20,9 @@ void add_hanging_flags(CLI::App* app, HangingPose& pose);
 /// Wall, aim, grid and output of what is carved.
 void add_carving_flags(CLI::App* app, Arguments& a);
 
+/// Whether and how far the outside may change.
+void add_reshaping_flags(CLI::App* app, Arguments& a);
+
 /// Material, report, threads, memory, quiet: what every run has.
 void add_run_flags(CLI::App* app, Arguments& a);
 

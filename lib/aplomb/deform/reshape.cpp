@@ -73,8 +73,8 @@ struct Reshaper::Parts {
 };
 
 std::string find_problem(const ReshapeOptions& o) {
-  if (!(o.most_mean_ratio > 0 && o.most_mean_ratio <= 1))
-    return fmt::format("most_mean_ratio is {}; it must lie in (0, 1]", o.most_mean_ratio);
+  if (!(o.most_mean_percent > 0 && o.most_mean_percent <= 100))
+    return fmt::format("most_mean_percent is {}; it must lie in (0, 100]", o.most_mean_percent);
   if (o.most_trim_mm && !(*o.most_trim_mm >= 0 && *o.most_trim_mm <= 1e4))
     return fmt::format("most_trim_mm is {}; it must lie in [0, 10000]", *o.most_trim_mm);
   for (const KeptBall& ball : o.kept)
@@ -104,7 +104,7 @@ Result<Reshaper> Reshaper::make(const SolidMesh& solid, const std::vector<Pose>&
   const auto joint = joint_problem(parts.solid.mesh(), poses, kind);
   if (!joint) return tl::unexpected(joint.error());
   parts.required_t = joint->required_t;
-  parts.options.most_mean_mm = options.most_mean_ratio * solid.box().size().z;
+  parts.options.most_mean_mm = options.most_mean_percent / 100 * solid.box().size().z;
   BendProblem problem{joint->problem, std::vector<bool>(parts.solid.mesh().vertices.size()), {}, {}, options.kept};
   for (const Pose& pose : poses) hold(pose, parts.solid, problem);
   auto bender = Bender::make(parts.solid, problem, {.wall_mm = wall_of(solid, options)}, job.part(0.5, 1));

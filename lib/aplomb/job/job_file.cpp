@@ -18,6 +18,7 @@ namespace fs = std::filesystem;
 constexpr double degree = std::numbers::pi / 180;
 constexpr std::array<const char*, 6> up_names{"x", "y", "z", "-x", "-y", "-z"};  // in UpAxis' order
 constexpr std::array<const char*, 3> aim_names{"least", "light", "stable"};      // in CarveAim's order
+constexpr std::array<const char*, 3> deform_names{"never", "auto", "only"};      // in Deform's order
 
 template <std::size_t N>
 std::size_t index_of(const std::array<const char*, N>& names, const std::string& name) {
@@ -76,9 +77,14 @@ class Reader {
   void up(const char* key, std::optional<UpAxis>& field) const {
     if (const auto at = json_.find(key); at != json_.end()) field = up_axis_named(at->get<std::string>());
   }
-  void aim(const char* key, CarveAim& field) const {
+  template <class Enum, std::size_t N>
+  void name(const char* key, const std::array<const char*, N>& names, Enum& field) const {
     if (const auto at = json_.find(key); at != json_.end())
-      field = static_cast<CarveAim>(index_of(aim_names, at->get<std::string>()));
+      field = static_cast<Enum>(index_of(names, at->get<std::string>()));
+  }
+  void balls(const char* key, std::vector<KeptBall>& field) const {
+    if (const auto at = json_.find(key); at != json_.end())
+      for (const Json& ball : *at) field.push_back({vec_of(ball["at_mm"]), ball["radius_mm"].get<double>()});
   }
   void memory(const char* key, std::size_t& field_bytes) const {
     if (const auto at = json_.find(key); at != json_.end())
@@ -153,7 +159,16 @@ class Writer {
   void up(const char* key, std::optional<UpAxis> field) const {
     if (field) json_[key] = up_names[static_cast<std::size_t>(*field)];
   }
-  void aim(const char* key, CarveAim field) const { json_[key] = aim_names[static_cast<std::size_t>(field)]; }
+  template <class Enum, std::size_t N>
+  void name(const char* key, const std::array<const char*, N>& names, Enum field) const {
+    json_[key] = names[static_cast<std::size_t>(field)];
+  }
+  void balls(const char* key, const std::vector<KeptBall>& field) const {
+    if (field.empty()) return;
+    json_[key] = Json::array();
+    for (const KeptBall& ball : field)
+      json_[key].push_back({{"at_mm", json_of(ball.center_mm)}, {"radius_mm", ball.radius_mm}});
+  }
   void memory(const char* key, std::size_t field_bytes) const { json_[key] = static_cast<double>(field_bytes) / 1e6; }
   void preset(const char*, double, std::optional<double> (*)(std::string_view)) const {}  // its number is written
   void points(const char* key, const std::vector<Vec3>& field) const {
@@ -227,7 +242,11 @@ void visit_job(const Visitor& v, JobFile& job) {
   v.value("repair_force", job.input.repair.insist);
   v.poses("poses", job.poses, [](const Visitor& p, JobPose& pose) { visit_pose(p, pose); });
   v.value("robust", job.options.robust);
-  v.aim("aim", job.options.aim);
+  v.name("aim", aim_names, job.options.aim);
+  v.name("deform", deform_names, job.options.deform);
+  v.value("deform_limit_percent", job.options.reshape.most_mean_percent);
+  v.value("trim_base_mm", job.options.reshape.most_trim_mm);
+  v.balls("keep", job.options.reshape.kept);
   v.preset("process", job.options.wall_mm, wall_of_process);
   v.value("wall_mm", job.options.wall_mm);
   v.value("voxel_mm", job.options.voxel_mm);

@@ -38,18 +38,27 @@ void load(glp_prob* problem, const LinearProgram& program) {
   }
 }
 
+bool solved(glp_prob* problem, double tolerance) {
+  glp_smcp parameters;
+  glp_init_smcp(&parameters);
+  parameters.msg_lev = GLP_MSG_OFF;
+  parameters.meth = GLP_DUALP;  // the primal method where the dual one gives up
+  parameters.tol_bnd = tolerance;
+  parameters.tol_dj = tolerance;
+  return glp_simplex(problem, &parameters) == 0 && glp_get_status(problem) == GLP_OPT;
+}
+
 }  // namespace
 
 std::optional<LinearSolution> solve(const LinearProgram& program) {
   glp_term_out(GLP_OFF);
   const std::unique_ptr<glp_prob, Delete> problem(glp_create_prob());
   load(problem.get(), program);
-  glp_smcp parameters;
-  glp_init_smcp(&parameters);
-  parameters.msg_lev = GLP_MSG_OFF;
-  parameters.tol_bnd = 1e-10;
-  parameters.tol_dj = 1e-10;
-  if (glp_simplex(problem.get(), &parameters) != 0 || glp_get_status(problem.get()) != GLP_OPT) return std::nullopt;
+  if (!solved(problem.get(), 1e-10)) {  // columns that are nearly the same, mostly
+    glp_scale_prob(problem.get(), GLP_SF_AUTO);
+    glp_adv_basis(problem.get(), 0);
+    if (!solved(problem.get(), 1e-9) && !solved(problem.get(), 1e-7)) return std::nullopt;
+  }
   LinearSolution solution;
   solution.value = glp_get_obj_val(problem.get());
   for (std::size_t c = 0; c < program.variables.size(); ++c)

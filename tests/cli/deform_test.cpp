@@ -1,0 +1,88 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "aplomb/io/read_mesh.h"
+#include "cli/command_line.h"
+#include "support/shapes.h"
+#include "support/solids.h"
+
+namespace aplomb {
+namespace {
+
+/// A column of many triangles that leans too far for any void.
+TriangleMesh leaning_column() {
+  std::vector<Vec2> profile{{0, 0}};
+  for (int ring = 0; ring <= 40; ++ring) profile.push_back({8, 1.5 * ring});
+  profile.push_back({0, 60});
+  TriangleMesh column = test::lathe(profile, 48);
+  for (Vec3& v : column.vertices) v.x += 0.35 * v.z;
+  return column;
+}
+
+class DeformingCommand : public CommandLine {
+ protected:
+  /// The report of `aplomb stand` with these flags on the leaning column.
+  nlohmann::json report(const std::string& flags, int exit_code) {
+    const std::string model = write("column.stl", leaning_column());
+    EXPECT_EQ(run("stand " + model + " -o " + path("out.stl") + " --report " + path("r.json") + " " + flags), exit_code)
+        << text_of("stderr");
+    return nlohmann::json::parse(text_of("r.json"));
+  }
+};
+
+TEST_F(DeformingCommand, BendsOnlyAsFarAsCarvingFallsShort) {
+  EXPECT_EQ(report("--tip 6deg --best-effort", 3).contains("deformation"), false);
+  const auto r = report("--tip 6deg --deform auto --deform-limit 20%", 0);
+  EXPECT_EQ(r.at("outcome"), "stands");
+  EXPECT_GE(r.at("after").at("tip_deg").get<double>(), 6);
+  EXPECT_LT(r.at("after").at("tip_deg").get<double>(), 6.2);
+  EXPECT_EQ(r.at("mesh").at("outer_unchanged"), false);
+  EXPECT_EQ(r.at("mesh").at("self_intersections"), 0);
+  const auto d = r.at("deformation");
+  EXPECT_EQ(d.at("outcome"), "reached");
+  EXPECT_LE(d.at("mean_mm").get<double>(), 12);
+  EXPECT_GT(d.at("mean_mm").get<double>(), 0.1);
+  EXPECT_GE(d.at("max_mm").get<double>(), d.at("mean_mm").get<double>());
+  EXPECT_EQ(run("check " + path("out.stl") + " --tip 6deg"), 0) << text_of("stdout");
+}
+
+TEST_F(DeformingCommand, StopsAtTheLimitAndSaysSo) {
+  const auto r = report("--tip 30deg --deform auto --deform-limit 1% --trim-base 0 --best-effort", 3);
+  const auto d = r.at("deformation");
+  EXPECT_EQ(d.at("outcome"), "limit");
+  EXPECT_NEAR(d.at("mean_mm").get<double>(), 0.6, 0.01);
+  EXPECT_EQ(d.at("trim_mm"), 0);
+  EXPECT_NE(text_of("stderr").find("all that the limit allows"), std::string::npos) << text_of("stderr");
+}
+
+TEST_F(DeformingCommand, CarvesNothingWhenItIsOnlyToDeform) {
+  const auto r = report("--tip 6deg --deform only --deform-limit 30%", 0);
+  EXPECT_FALSE(r.contains("carving"));
+  EXPECT_EQ(r.at("mesh").at("voids"), 0);
+  EXPECT_GE(r.at("after").at("tip_deg").get<double>(), 6);
+}
+
+TEST_F(DeformingCommand, TrimsARoundedBaseInsteadOfBending) {
+  const std::string egg = write("egg.stl", test::transformed(test::sphere({0, 0, 0}, 10, 5), {{{{{1, 0, 0}, {0, 1, 0}, {0, 0, 3}}}}, {0, 0, 30}}));
+  EXPECT_EQ(run("stand " + egg + " --tip 5deg --deform auto --trim-base 3mm -o " + path("out.stl") + " --report " + path("r.json")), 0)
+      << text_of("stderr");
+  const auto d = nlohmann::json::parse(text_of("r.json")).at("deformation");
+  EXPECT_EQ(d.at("outcome"), "trimmed");
+  EXPECT_GT(d.at("trim_mm").get<double>(), 0);
+  EXPECT_LE(d.at("trim_mm").get<double>(), 3);
+  EXPECT_EQ(d.at("mean_mm"), 0);
+  EXPECT_GE(d.at("trims").size(), 4u);
+}
+
+TEST_F(DeformingCommand, RefusesLimitsThatMakeNoSense) {
+  const std::string model = write("column.stl", leaning_column());
+  EXPECT_EQ(run("stand " + model + " -o " + path("out.stl") + " --deform-limit 0%"), 1);
+  EXPECT_EQ(run("stand " + model + " -o " + path("out.stl") + " --trim-base much"), 1);
+  EXPECT_EQ(run("stand " + model + " -o " + path("out.stl") + " --keep 1,2,3"), 1);
+  EXPECT_EQ(run("stand " + model + " -o " + path("out.stl") + " --deform perhaps"), 1);
+}
+
+}  // namespace
+}  // namespace aplomb
