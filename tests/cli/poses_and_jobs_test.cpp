@@ -93,6 +93,16 @@ TEST_F(CommandLine, RunsAJobWithSeveralPosesAndChecksOneWithoutOutput) {
   EXPECT_TRUE(report.at("carving").contains("bound_surplus_deg"));
 }
 
+TEST_F(CommandLine, RunsTheExamplesThatStandAndHang) {
+  for (const std::string name : {"stand", "stand_and_hang"}) {
+    const std::string job = std::string(APLOMB_FIXTURES) + "/jobs/" + name + ".json";
+    EXPECT_EQ(run("run " + job), 3) << text_of("stdout");
+    EXPECT_EQ(run("run " + job + " -o " + path("out.3mf") + " --report " + path("r.json")), 0) << text_of("stderr");
+    const auto report = Json::parse(text_of("r.json"));
+    for (const auto& pose : report.at("poses")) EXPECT_EQ(pose.at("holds"), true) << pose.at("name");
+  }
+}
+
 TEST_F(CommandLine, SaysInOneLineWhatIsWrongWithAJob) {
   std::ofstream(path("job.json")) << R"({"aplomb_job": 1, "model": "a.stl", "poses": [{"stand": {"tip_deg": 95}}]})";
   EXPECT_EQ(run("run " + path("job.json")), 1);

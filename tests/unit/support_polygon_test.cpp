@@ -152,6 +152,16 @@ TEST(SupportPolygon, SaysWhenNamedContactsAreNotOnTheSurfaceAtAll) {
   EXPECT_NE(support.error().message.find("no part of the surface"), std::string::npos) << support.error().message;
 }
 
+/// Square sides cross the contact height straight above the corners: twins, but for the rounding of the turn.
+TEST(SupportPolygon, KeepsEveryCornerOfATurnedBoxWhereTwoPointsCoincideButForRounding) {
+  for (int k = 0; k < 200; ++k) {
+    const Affine3 turn = test::rotation({1, 2, 3.0 - 0.1 * k}, 0.7 + k);
+    TriangleMesh box = test::box({0, 0, 0}, {20, 30, 50});
+    for (Vec3& v : box.vertices) v = turn * v;
+    EXPECT_NEAR(support_of(box, {.up = turn * Vec3{0, 0, 1}}).area_mm2(), 600, 1e-9) << k;
+  }
+}
+
 TEST(SupportPolygon, WidthIsTheSmallestAltitude) {
   const SupportPolygon triangle = support_of(test::prism({{0, 0}, {6, 0}, {0, 8}}, 0, {0, 0, 1}));
   EXPECT_NEAR(triangle.width_mm(), 4.8, 1e-12);  // the altitude on the hypotenuse of a 6-8-10 triangle

@@ -19,6 +19,30 @@ constexpr int most_planes = 400;
 
 bool is_condition(const BalanceRow& row) { return row.b.constant == 0 && row.b.gradient == Vec3{}; }
 
+/// Maximises the least of  form_i(mixture) / weight_i  over mixtures of the points: their shares come first, then s.
+LinearProgram least_slack_program(const std::vector<Moments>& points, const std::vector<AffineForm>& forms,
+                                  const std::vector<double>& weights) {
+  LinearProgram program;
+  program.variables.assign(points.size(), {});
+  program.variables.push_back({1, -adapters::unbounded, adapters::unbounded});
+  for (std::size_t i = 0; i < forms.size(); ++i) {
+    LinearProgram::Row row;
+    for (const Moments& point : points) row.coefficients.push_back(forms[i](point));
+    row.coefficients.push_back(-weights[i]);
+    program.rows.push_back(std::move(row));
+  }
+  LinearProgram::Row shares{std::vector<double>(points.size(), 1.0), 1, true};
+  shares.coefficients.push_back(0);
+  program.rows.push_back(std::move(shares));
+  return program;
+}
+
+Moments mixture_of(const std::vector<Moments>& points, const LinearSolution& solution) {
+  Moments mixture;
+  for (std::size_t k = 0; k < points.size(); ++k) mixture += solution.x[k] * points[k];
+  return mixture;
+}
+
 auto unsolved() { return fail(ErrorCode::internal, "the linear program over the planes found so far was not solved"); }
 
 }  // namespace
@@ -78,6 +102,7 @@ Result<double> PlaneSearch::meet_conditions(PlaneChoice& best, const Job& job) {
   std::vector<AffineForm> conditions;
   for (const BalanceRow& row : problem_.rows)
     if (is_condition(row)) conditions.push_back((1 / scale_) * row.a);
+  const std::vector<double> ones(conditions.size(), 1.0);
   const auto slack = [&](const Moments& body) {
     double least = std::numeric_limits<double>::infinity();
     for (const AffineForm& condition : conditions) least = std::min(least, condition(body));
@@ -86,25 +111,9 @@ Result<double> PlaneSearch::meet_conditions(PlaneChoice& best, const Job& job) {
   double reached = slack(best.body);
   for (int round = 0; round < most_planes && reached <= 0; ++round) {
     if (!job.report(0, "carve")) return cancelled();
-    LinearProgram program;  // maximise s with sum_k share_k c_i(point_k) >= s
-    program.variables.assign(points_.size(), {});
-    program.variables.push_back({1, -adapters::unbounded, adapters::unbounded});
-    for (const AffineForm& condition : conditions) {
-      LinearProgram::Row row;
-      for (const Moments& point : points_) row.coefficients.push_back(condition(point));
-      row.coefficients.push_back(-1);
-      program.rows.push_back(std::move(row));
-    }
-    LinearProgram::Row shares{std::vector<double>(points_.size(), 1.0), 1, true};
-    shares.coefficients.push_back(0);
-    program.rows.push_back(std::move(shares));
-    const auto solution = adapters::solve(program);
+    const auto solution = adapters::solve(least_slack_program(points_, conditions, ones));
     if (!solution) return unsolved();
-    if (solution->value > 0) {
-      Moments mixture;
-      for (std::size_t k = 0; k < points_.size(); ++k) mixture += solution->x[k] * points_[k];
-      return largest_t(problem_, mixture);
-    }
+    if (solution->value > 0) return largest_t(problem_, mixture_of(points_, *solution));
     AffineForm kept;
     for (std::size_t i = 0; i < conditions.size(); ++i)
       kept = kept + std::max(0.0, -solution->duals[i]) * conditions[i];
@@ -126,31 +135,18 @@ Result<PlaneChoice> PlaneSearch::most_stable(double tolerance, const Job& job) {
   double mixed = t;  // reached by a mixture
   for (int round = 0; round < most_planes && best.bound - std::max(best.t, mixed) > tolerance; ++round) {
     if (!job.report(double(round) / (round + 20), "carve")) return cancelled();
-    LinearProgram program;  // maximise s with sum_k share_k g_i(point_k, t) >= s weight_i
-    program.variables.assign(points_.size(), {});
-    program.variables.push_back({1, -adapters::unbounded, adapters::unbounded});
-    for (std::size_t i = 0; i < problem_.rows.size(); ++i) {
-      LinearProgram::Row row;
-      for (const Moments& point : points_) row.coefficients.push_back(row_value(problem_.rows[i], t, point));
-      row.coefficients.push_back(-row_weights_[i]);
-      program.rows.push_back(std::move(row));
-    }
-    LinearProgram::Row shares{std::vector<double>(points_.size(), 1.0), 1, true};
-    shares.coefficients.push_back(0);
-    program.rows.push_back(std::move(shares));
-    const auto solution = adapters::solve(program);
+    std::vector<AffineForm> forms;
+    for (const BalanceRow& row : problem_.rows) forms.push_back((1 / scale_) * row.at(t));
+    const auto solution = adapters::solve(least_slack_program(points_, forms, row_weights_));
     if (!solution) return unsolved();
     std::vector<double> weights(problem_.rows.size());
     for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = std::max(0.0, -solution->duals[i]);
-    Moments mixture;
-    for (std::size_t k = 0; k < points_.size(); ++k) mixture += solution->x[k] * points_[k];
-
+    const double promised = largest_t(problem_, mixture_of(points_, *solution));
     const AffineForm kept = combination(weights, t);
     const Moments body = try_plane(kept);
     if (const double reached = largest_t(problem_, body); reached > best.t)
       best.kept = kept, best.body = body, best.t = reached;
     best.bound = std::min(best.bound, certified_bound(weights, t, kept(body) / scale_));
-    const double promised = largest_t(problem_, mixture);
     mixed = std::max(mixed, promised);
     t = solution->value >= 0 && std::isfinite(promised) ? std::max(t, promised) : t + solution->value;
     t = std::min(t, best.bound);
