@@ -35,13 +35,15 @@ TEST(AtomicFileFails, OnAFullDisk) { expect_file_error("/dev/full"); }
 class AsOrdinaryUser {
  public:
   AsOrdinaryUser() {
-    if (was_root_) EXPECT_EQ(::seteuid(65534), 0);
+    if (was_root_) become(65534);
   }
   ~AsOrdinaryUser() {
-    if (was_root_) EXPECT_EQ(::seteuid(0), 0);
+    if (was_root_) become(0);
   }
 
  private:
+  static void become(uid_t user) { EXPECT_EQ(::seteuid(user), 0); }
+
   bool was_root_ = ::geteuid() == 0;
 };
 
