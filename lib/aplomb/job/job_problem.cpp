@@ -77,7 +77,7 @@ std::string count_of(const Json& schema, const char* least, const char* most) {
 
 /// What the schema lets a value be: "a number above 0 and at most 10000".
 std::string allowed_by(const Json& schema) {
-  const std::string about = schema.contains("description") ? schema["description"].get<std::string>() : "";
+  std::string about = schema.contains("description") ? schema["description"].get<std::string>() : "";
   if (schema.contains("anyOf") || schema.contains("oneOf")) return about;
   std::string kind;
   if (schema.contains("enum")) {
