@@ -65,8 +65,8 @@ TEST_F(DeformingCommand, CarvesNothingWhenItIsOnlyToDeform) {
 }
 
 TEST_F(DeformingCommand, TrimsARoundedBaseInsteadOfBending) {
-  const std::string egg = write("egg.stl", transformed(test::sphere({0, 0, 0}, 10, 5),
-                                                             {{{{{1, 0, 0}, {0, 1, 0}, {0, 0, 3}}}}, {0, 0, 30}}));
+  const std::string egg = write(
+      "egg.stl", transformed(test::sphere({0, 0, 0}, 10, 5), {{{{{1, 0, 0}, {0, 1, 0}, {0, 0, 3}}}}, {0, 0, 30}}));
   EXPECT_EQ(run("stand " + egg + " --tip 5deg --deform auto --trim-base 3mm -o " + path("out.stl") + " --report " +
                 path("r.json")),
             0)
