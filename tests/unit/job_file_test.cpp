@@ -81,6 +81,7 @@ TEST(JobFile, ReadsEveryKeyOfTheExampleAndWritesItAgain) {
     else if (value.is_number()) field = value.get<double>() * 1.01;
     else if (value == "z") field = "-x";
     else if (value == "stable") field = "light";
+    else if (value == "auto") field = "only";
     else field = value.get<std::string>() + "2";
     const auto read = parse(changed);
     ASSERT_TRUE(read.has_value()) << at << ": " << read.error().message;
