@@ -60,12 +60,12 @@ std::optional<EmbeddedPoint> Cage::embed(Vec3 point_mm) const {
   }
   const std::uint32_t block = block_[cube_index(cube)];
   if (block == none) return std::nullopt;
-  const auto place = static_cast<std::size_t>((piece[2] * fine + piece[1]) * fine + piece[0]);
-  const std::uint32_t copy = copies_[std::size_t{block} * pieces + place];
+  const int place = (piece[2] * fine + piece[1]) * fine + piece[0];
+  const std::uint32_t copy = copies_[std::size_t{block} * pieces + static_cast<std::size_t>(place)];
   if (copy == none) return std::nullopt;
   const std::size_t p = path_of(at);
   const auto [a, b, c] = paths[p].axes;
-  EmbeddedPoint point{static_cast<std::uint32_t>(6 * copy + p), {1 - at[a], at[a] - at[b], at[b] - at[c], at[c]}};
+  EmbeddedPoint point{6 * copy + static_cast<std::uint32_t>(p), {1 - at[a], at[a] - at[b], at[b] - at[c], at[c]}};
   if (!paths[p].right_handed()) std::swap(point.weights[2], point.weights[3]);  // as its corners are
   return point;
 }

@@ -175,7 +175,8 @@ void CageEnergy::add_block(const TetMesh::Tet& corners, std::size_t k, std::size
   if (offset < 0) return;
   const int i = free_.first_unknown(corners[k]), j = free_.first_unknown(corners[l]);
   for (int c = 0; c < 3; ++c) {
-    double* const column = hessian_.values.data() + hessian_.column_starts[std::size_t(std::min(i, j) + c)];
+    const int number = std::min(i, j) + c;
+    double* const column = hessian_.values.data() + hessian_.column_starts[std::size_t(number)];
     if (i == j)
       for (int r = c; r < 3; ++r) column[r - c] += block.rows[std::size_t(r)][c];
     else

@@ -49,7 +49,7 @@ Mat3 TetEnergy::gradient(const Mat3& f) const {
 std::array<TetEnergy::Mode, 9> TetEnergy::modes(const Mat3& f) const {
   const Eigen::Matrix3d deformation = to_eigen(f);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> stretches(deformation.transpose() * deformation);
-  const Eigen::Matrix3d v = stretches.eigenvectors();
+  const Eigen::Matrix3d& v = stretches.eigenvectors();
   const Eigen::Vector3d s = stretches.eigenvalues().cwiseMax(1e-30).cwiseSqrt();
   const Eigen::Matrix3d u = deformation * v * s.cwiseInverse().asDiagonal();
   const double j = determinant(f);
@@ -66,15 +66,15 @@ std::array<TetEnergy::Mode, 9> TetEnergy::modes(const Mat3& f) const {
     modes[std::size_t(m)] = {mixed.eigenvalues()[m] + beta,
                              from_eigen(u * mixed.eigenvectors().col(m).asDiagonal() * v.transpose())};
   for (int m = 0; m < 3; ++m) {
-    const int i = (m + 1) % 3, k = (m + 2) % 3;
+    const int i = (m + 1) % 3, k = (m + 2) % 3, twist_mode = 3 + 2 * m, flip_mode = twist_mode + 1;
     const double product = s[i] * s[k], cube = product * product * product;
     const double squares = s[i] * s[i] + s[k] * s[k];
     const double of_volume = gamma * (j - 1) * j / product;
     const Eigen::Matrix3d ik = u.col(i) * v.col(k).transpose(), ki = u.col(k) * v.col(i).transpose();
     const double twist = alpha * (1 - (squares - product) / cube) + of_volume;
     const double flip = alpha * (1 + (squares + product) / cube) - of_volume;
-    modes[std::size_t(3 + 2 * m)] = {twist + beta, from_eigen((ik - ki) * std::sqrt(0.5))};
-    modes[std::size_t(4 + 2 * m)] = {flip + beta, from_eigen((ik + ki) * std::sqrt(0.5))};
+    modes[std::size_t(twist_mode)] = {twist + beta, from_eigen((ik - ki) * std::sqrt(0.5))};
+    modes[std::size_t(flip_mode)] = {flip + beta, from_eigen((ik + ki) * std::sqrt(0.5))};
   }
   return modes;
 }
