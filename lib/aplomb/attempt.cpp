@@ -1,5 +1,7 @@
 #include "aplomb/attempt.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -39,7 +41,8 @@ DeformationFigures figures_of(const Reshaper& reshaper, const Reshaping& reshapi
   for (const TrimGain& gain : reshaper.gains()) figures.trims.push_back({gain.trim_mm, std::atan(gain.t)});
   if (!reshaping.bent) return figures;
   const CageDeformation& cage = reshaping.bent->cage;
-  figures.outcome = outcomes[static_cast<std::size_t>(cage.outcome)];
+  const bool stopped = reshaping.bent->path_ratio < 1;  // the surface would have crossed itself
+  figures.outcome = stopped ? "stuck" : outcomes[static_cast<std::size_t>(cage.outcome)];
   figures.mean_mm = reshaping.bent->path_ratio * cage.mean_mm;
   figures.max_mm = reshaping.bent->max_mm;
   figures.max_turn_rad = cage.max_turn_rad;

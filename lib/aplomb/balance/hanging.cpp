@@ -7,16 +7,11 @@ namespace aplomb {
 
 Hanging measure_hanging(std::span<const Region> body, const HangingPose& pose) {
   assert(!body.empty() && find_problem(pose).empty());
-  constexpr double g_per_cm3_in_g_per_mm3 = 1e-3;
+  const BodyMass total = mass_of(body);
   Hanging hanging;
-  Vec3 first;
-  for (const Region& region : body) {
-    const double density_g_per_mm3 = region.density_g_per_cm3 * g_per_cm3_in_g_per_mm3;
-    hanging.volume_mm3 += region.moments.volume_mm3;
-    hanging.mass_g += density_g_per_mm3 * region.moments.volume_mm3;
-    first += density_g_per_mm3 * region.moments.first_mm4;
-  }
-  hanging.com_mm = first / hanging.mass_g;
+  hanging.volume_mm3 = total.volume_mm3;
+  hanging.mass_g = total.mass_g;
+  hanging.com_mm = total.com_mm;
   const Vec3 p = pose.attachments_mm.front(), q = pose.attachments_mm.back();
   Vec3 above = p;  // the point of attachment, or of the axis, that c is to come under
   if (pose.attachments_mm.size() == 2) {

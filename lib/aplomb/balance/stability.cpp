@@ -61,17 +61,27 @@ double farthest_centroid_mm(std::span<const Region> body, Vec3 direction) {
   return farthest_mm;
 }
 
-Stability measure_stability(const SupportPolygon& support, std::span<const Region> body, const StandingPose& pose) {
-  assert(!body.empty() && !support.corners_mm.empty());
-  Stability s;
+BodyMass mass_of(std::span<const Region> body) {
+  assert(!body.empty());
+  BodyMass total;
   Vec3 first;
   for (const Region& region : body) {
     const double density_g_per_mm3 = region.density_g_per_cm3 * g_per_cm3_in_g_per_mm3;
-    s.volume_mm3 += region.moments.volume_mm3;
-    s.mass_g += density_g_per_mm3 * region.moments.volume_mm3;
+    total.volume_mm3 += region.moments.volume_mm3;
+    total.mass_g += density_g_per_mm3 * region.moments.volume_mm3;
     first += density_g_per_mm3 * region.moments.first_mm4;
   }
-  s.com_mm = first / s.mass_g;
+  total.com_mm = first / total.mass_g;
+  return total;
+}
+
+Stability measure_stability(const SupportPolygon& support, std::span<const Region> body, const StandingPose& pose) {
+  assert(!body.empty() && !support.corners_mm.empty());
+  const BodyMass total = mass_of(body);
+  Stability s;
+  s.volume_mm3 = total.volume_mm3;
+  s.mass_g = total.mass_g;
+  s.com_mm = total.com_mm;
   s.com_height_mm = support.frame.height_mm(s.com_mm);
   s.can_stand = !support.degenerate();
   s.margin_mm = infinity;

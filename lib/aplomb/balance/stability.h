@@ -20,6 +20,15 @@ struct Region {
   double density_error_ratio = 0;  ///< in [0, 1)
 };
 
+struct BodyMass {
+  double volume_mm3 = 0;
+  double mass_g = 0;
+  Vec3 com_mm;
+};
+
+/// Of all regions at their nominal densities. \pre body is not empty, its regions have positive volume and density.
+BodyMass mass_of(std::span<const Region> body);
+
 /// How a body stands in a pose (PRINTABILITY, "Standing, defined"). c is the centre of mass, h its height
 /// above the plate, d_i its distance inside edge i of the support polygon, negative outside.
 struct Stability {

@@ -55,7 +55,7 @@ class Cage {
 
 /// Builds a cage. A solid's own voids are air to it.
 ///
-/// \pre  find_problem: wall_mm > 0, samples >= 1000.
+/// \pre  wall_mm > 0, samples >= 1000.
 /// \post embed() holds every point of the solid.
 /// \return cancelled.
 /// \par Cost  0.3 s for 100k triangles; 8k to 20k tetrahedra.

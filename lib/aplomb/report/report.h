@@ -43,10 +43,10 @@ struct DeformationFigures {
   };
   std::string outcome;  ///< "trimmed" (the cut alone serves), "reached", "limit" (of the mean displacement), "stuck"
   double trim_mm = 0;   ///< cut off the base
-  std::vector<Trim> trims;  ///< what cuts would gain
-  double mean_mm = 0;       ///< displacement, weighted by the solid's volume
-  double max_mm = 0;        ///< of a vertex of the surface
-  double max_turn_rad = 0;
+  std::vector<Trim> trims;         ///< what cuts would gain
+  double mean_mm = 0;              ///< displacement, weighted by the solid's volume
+  double max_mm = 0;               ///< of a vertex of the surface
+  double max_turn_rad = 0;         ///< of a piece of the cage; no more than that where the surface stopped earlier
   double volume_change_ratio = 0;  ///< of the solid, the cut included
   int iterations = 0;
   double energy_mm3 = 0;
