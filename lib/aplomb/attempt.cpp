@@ -45,6 +45,7 @@ DeformationFigures figures_of(const Reshaper& reshaper, const Reshaping& reshapi
   figures.outcome = stopped ? "stuck" : outcomes[static_cast<std::size_t>(cage.outcome)];
   figures.mean_mm = reshaping.bent->path_ratio * cage.mean_mm;
   figures.max_mm = reshaping.bent->max_mm;
+  figures.handle_short_mm = reshaping.bent->handle_short_mm;
   figures.max_turn_rad = cage.max_turn_rad;
   figures.iterations = cage.iterations;
   figures.energy_mm3 = cage.energy_mm3;

@@ -197,6 +197,8 @@ std::string find_problem(const StandOptions& o) {
         !problem.empty())
       return problem;
   if (std::string problem = find_problem(o.reshape); !problem.empty()) return problem;
+  if (o.deform == Deform::never && !o.reshape.regions.handles.empty())
+    return "deform is never, but a handle moves the outside; it must be auto or only";
   return find_problem(CarveOptions{o.aim, 0, o.least_volume_mm3});
 }
 
@@ -211,7 +213,8 @@ Result<StandRun> stand(const Input& input, const StandOptions& options, const Jo
   StandRun run{std::nullopt, std::nullopt, std::move(*begun)};
   Report& report = run.report;
   StageClock clock(report.stage_seconds);
-  if (all_hold(report) && options.aim == CarveAim::least) {
+  const bool is_to_move = !options.reshape.regions.handles.empty();
+  if (all_hold(report) && !is_to_move && options.aim == CarveAim::least) {
     report.outcome = Outcome::already_stands;
     run.shell = Shell{input.solid.mesh(), input.solid.mesh().triangles.size(), 0, 0, 0};
     return run;
@@ -219,7 +222,7 @@ Result<StandRun> stand(const Input& input, const StandOptions& options, const Jo
 
   Input shaped = input;
   std::optional<Attempt> made;
-  if (options.deform != Deform::only) {
+  if (options.deform != Deform::only && !is_to_move) {
     auto carved = attempt_carving(input, options, clock, job.part(0, options.deform == Deform::never ? 0.8 : 0.4));
     if (!carved) return tl::unexpected(carved.error());
     made = std::move(*carved);

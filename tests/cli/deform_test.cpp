@@ -64,6 +64,31 @@ TEST_F(DeformingCommand, CarvesNothingWhenItIsOnlyToDeform) {
   EXPECT_GE(r.at("after").at("tip_deg").get<double>(), 6);
 }
 
+TEST_F(DeformingCommand, MovesAHandleThoughItStandsAlready) {
+  const std::string flags = "--handle 17.5,0,50,6:to=12,0,50 --tip 1deg --deform-limit 30%";
+  const auto r = report("--contact-height 1mm --deform auto " + flags, 0);
+  EXPECT_EQ(r.at("outcome"), "stands");
+  EXPECT_LT(r.at("deformation").at("handle_short_mm").get<double>(), 0.5);
+  EXPECT_GT(r.at("deformation").at("max_mm").get<double>(), 5);
+  EXPECT_GE(r.at("after").at("tip_deg").get<double>(), 1);
+}
+
+TEST_F(DeformingCommand, SaysWhatIsWrongWithAHandle) {
+  const std::string stand = "stand " + write("column.stl", leaning_column()) + " -o " + path("out.stl") + " ";
+  const auto error_of = [&](const std::string& flags) {
+    EXPECT_EQ(run(stand + flags), 1) << flags;
+    return text_of("stderr");
+  };
+  EXPECT_NE(error_of("--handle 0,0,5:to=1,0,5").find("deform is never, but a handle moves the outside"),
+            std::string::npos);
+  EXPECT_NE(error_of("--deform auto --handle 0,0,5").find("X,Y,Z[,R]:lock or"), std::string::npos);
+  EXPECT_NE(error_of("--deform auto --handle 0,0,5:go=1").find("'go=1' is no change"), std::string::npos);
+  EXPECT_NE(error_of("--deform auto --handle 0,0,5:turn=1").find("turn=X,Y,Z in degrees"), std::string::npos);
+  EXPECT_NE(error_of("--deform auto --handle 0,0,5:scale=9").find("must lie in [0.2, 5]"), std::string::npos);
+  EXPECT_NE(error_of("--deform auto --handle 0,0,500,2:to=1,0,5").find("holds nothing of the model"),
+            std::string::npos);
+}
+
 TEST_F(DeformingCommand, TrimsARoundedBaseInsteadOfBending) {
   const std::string egg = write(
       "egg.stl", transformed(test::sphere({0, 0, 0}, 10, 5), {{{{{1, 0, 0}, {0, 1, 0}, {0, 0, 3}}}}, {0, 0, 30}}));

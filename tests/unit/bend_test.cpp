@@ -99,7 +99,7 @@ TEST(Bend, KeepsTheShapeOfABallThatIsToBeKept) {
     return worst;
   };
   const double freely = worst_stretch(bent(column, problem, 5));
-  problem.kept = {{middle, 12}};
+  problem.regions.kept = {{middle, 12}};
   const double kept = worst_stretch(bent(column, problem, 5));
   EXPECT_LT(kept, 0.3 * freely);
   EXPECT_LT(kept, 0.005);

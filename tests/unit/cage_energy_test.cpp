@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "aplomb/mesh/placement.h"
 #include "support/derivatives.h"
 #include "support/tet_boxes.h"
 
@@ -31,7 +32,8 @@ Field noise(const CageProblem& problem, unsigned seed) {
   return field;
 }
 
-/// A small bar with a plate that its upper half is under, a handle and unequal weights: every term counts.
+/// A small bar with a plate that its upper half is under, a handle, unequal weights and a wanted shape: every term
+/// counts.
 struct Everything {
   CageProblem problem = test::leaning_bar(10, 0.1, 2);
   DeformOptions options{.ground_ratio = 3};
@@ -41,6 +43,8 @@ struct Everything {
   Everything() {
     problem.handles.push_back({problem.samples.back().at, {3, 4, 70}, 0.1});
     problem.stiffness[5] = 7;
+    problem.wanted.assign(problem.rest.tets.size(), {});
+    problem.wanted[2] = {{{{1.1, 0.2, 0}, {-0.1, 0.9, 0.1}, {0, 0.3, 1.2}}}};
     problem.solid_share[3] = 0.1;
     shapes = tet_shapes(problem.rest);
     position = moved(problem.rest.vertices, 1, noise(problem, 3));
@@ -66,6 +70,20 @@ TEST(CageEnergy, IsZeroAtRest) {
   const CageEnergy energy(problem, {}, shapes);
   EXPECT_NEAR(energy.value(problem.rest.vertices), 0, 1e-9);
   for (const Vec3& g : energy.gradient(problem.rest.vertices)) EXPECT_NEAR(norm(g), 0, 1e-9);
+}
+
+TEST(CageEnergy, IsZeroWhereEveryTetrahedronHasItsWantedShape) {
+  CageProblem problem = test::leaning_bar(10, 0.1, 2);
+  problem.fixed.assign(problem.fixed.size(), false);
+  problem.grounds.clear();
+  const Affine3 wanted = {1.3 * rotation_of({{1, 2, 3}, 0.7}), {}};
+  problem.wanted.assign(problem.rest.tets.size(), wanted.linear);
+  const auto shapes = tet_shapes(problem.rest);
+  const CageEnergy energy(problem, {}, shapes);
+  Field there = problem.rest.vertices;
+  for (Vec3& v : there) v = wanted * v + Vec3{5, 6, 7};
+  EXPECT_NEAR(energy.value(there), 0, 1e-9);
+  EXPECT_GT(energy.value(problem.rest.vertices), 100);
 }
 
 TEST(CageEnergy, GradientAgreesWithCentralDifferences) {

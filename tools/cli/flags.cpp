@@ -102,15 +102,7 @@ void add_reshaping_flags(CLI::App* app, Arguments& a) {
           throw CLI::ValidationError("--trim-base", "'" + text + "' is neither auto nor a length such as 1mm");
       },
       "how much may be cut off the base before bending: auto (1 % of the height, default), 0 or a length");
-  app->add_option_function<std::vector<std::string>>(
-      "--keep",
-      [&options](const std::vector<std::string>& texts) {
-        for (const std::string& text : texts) {
-          const auto n = numbers_of("--keep", text, 4, 4, "X,Y,Z,R in mm");
-          options.reshape.kept.push_back({{n[0], n[1], n[2]}, n[3]});
-        }
-      },
-      "a ball X,Y,Z,R in mm that a bend leaves in shape, such as a face");
+  add_region_flags(app, options.reshape.regions);
 }
 
 void add_run_flags(CLI::App* app, Arguments& a) {

@@ -22,6 +22,7 @@ void add_carving_flags(CLI::App* app, Arguments& a);
 
 /// Whether and how far the outside may change.
 void add_reshaping_flags(CLI::App* app, Arguments& a);
+void add_region_flags(CLI::App* app, Regions& regions);
 
 /// Material, report, threads, memory, quiet: what every run has.
 void add_run_flags(CLI::App* app, Arguments& a);

@@ -58,6 +58,7 @@ constexpr Mat3 operator*(const Mat3& a, const Mat3& b) {
   const Mat3 columns = transposed(b);
   return {{{columns * a.rows[0], columns * a.rows[1], columns * a.rows[2]}}};
 }
+constexpr Mat3 operator*(double s, const Mat3& m) { return {{{s * m.rows[0], s * m.rows[1], s * m.rows[2]}}}; }
 constexpr double determinant(const Mat3& m) { return dot(m.rows[0], cross(m.rows[1], m.rows[2])); }
 
 /// x -> linear x + translation.

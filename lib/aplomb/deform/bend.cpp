@@ -10,26 +10,12 @@
 namespace aplomb {
 namespace {
 
-constexpr double kept_stiffness = 1000;
 constexpr std::array<double, 6> path_ratios{1, 0.9, 0.75, 0.5, 0.25, 0.1};
 
 double lowest_mm(const TriangleMesh& mesh, Vec3 up) {
   double lowest = std::numeric_limits<double>::infinity();
   for (const Vec3& v : mesh.vertices) lowest = std::min(lowest, dot(up, v));
   return lowest;
-}
-
-Vec3 middle_of(const TetMesh& mesh, const TetMesh::Tet& t) {
-  return 0.25 * (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]] + mesh.vertices[t[3]]);
-}
-
-std::vector<double> stiffnesses(const TetMesh& mesh, const std::vector<KeptBall>& kept, double reach_mm) {
-  std::vector<double> stiffness(mesh.tets.size(), 1);
-  for (std::size_t t = 0; t < mesh.tets.size(); ++t)
-    for (const KeptBall& ball : kept)
-      if (norm(middle_of(mesh, mesh.tets[t]) - ball.center_mm) <= ball.radius_mm + reach_mm)
-        stiffness[t] = kept_stiffness;
-  return stiffness;
 }
 
 /// Every cage vertex that carries a point which does not move.
@@ -85,8 +71,9 @@ Result<Bender> Bender::make(const SolidMesh& solid, const BendProblem& problem, 
   CageProblem bending;
   bending.rest = cage->mesh();
   bending.solid_share = cage->solid_share();
-  bending.stiffness = stiffnesses(cage->mesh(), problem.kept, 0.5 * cage->cube_mm());
+  bending.stiffness.assign(cage->mesh().tets.size(), 1);
   bending.fixed = fixed_vertices(*cage, solid, problem);
+  if (const auto marked = mark_regions(*cage, problem.regions, bending); !marked) return tl::unexpected(marked.error());
   bending.samples = cage->samples();
   bending.balance = problem.balance;
   bending.grounds = problem.grounds;
@@ -100,13 +87,14 @@ Result<Bent> Bender::bend(double required_t, const DeformOptions& options, const
   auto cage = deform_cage(problem, options, {}, job.part(0, 0.8));
   if (!cage) return tl::unexpected(cage.error());
   for (const double ratio : path_ratios) {
-    auto mesh = parts_->motion.moved_apart(between(problem.rest.vertices, cage->vertices, ratio), parts_->held, job);
+    const std::vector<Vec3> vertices = between(problem.rest.vertices, cage->vertices, ratio);
+    auto mesh = parts_->motion.moved_apart(vertices, parts_->held, job);
     if (!mesh) return tl::unexpected(mesh.error());
     for (const GroundPlane& ground : problem.grounds) lift_onto(*mesh, ground);
     auto checked = check_solid(*mesh, job.part(0.8, 1));
     if (!checked) return tl::unexpected(checked.error());
     if (!checked->solid) continue;
-    Bent bent{std::move(*checked->solid), std::move(*cage), ratio, 0, 0};
+    Bent bent{std::move(*checked->solid), std::move(*cage), ratio, 0, 0, farthest_pull_mm(problem, vertices)};
     const auto &from = parts_->solid.mesh().vertices, &to = bent.solid.mesh().vertices;
     for (std::size_t v = 0; v < from.size(); ++v) {
       const double by = norm(to[v] - from[v]);

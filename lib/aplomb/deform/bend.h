@@ -8,15 +8,10 @@
 #include "aplomb/core/job.h"
 #include "aplomb/deform/cage.h"
 #include "aplomb/deform/deform_cage.h"
+#include "aplomb/deform/regions.h"
 #include "aplomb/mesh/solid_mesh.h"
 
 namespace aplomb {
-
-/// A region that keeps its shape, such as a face.
-struct KeptBall {
-  Vec3 center_mm;
-  double radius_mm = 0;
-};
 
 /// What a solid is bent for, and what of it stays.
 struct BendProblem {
@@ -24,7 +19,7 @@ struct BendProblem {
   std::vector<bool> held;            ///< per vertex of the solid: contacts, which do not move
   std::vector<Vec3> anchors;         ///< points of the solid that do not move: attachments
   std::vector<GroundPlane> grounds;  ///< the plates of the poses
-  std::vector<KeptBall> kept;
+  Regions regions{};                 ///< what the user wants of parts of it
 };
 
 /// The vertices up to height_mm above the plane through the lowest point: what a standing pose holds.
@@ -36,13 +31,15 @@ struct Bent {
   double path_ratio = 1;  ///< how far along it the surface went: less than 1 where it would have crossed itself
   double mean_mm = 0;     ///< displacement of the surface's vertices
   double max_mm = 0;
+  double handle_short_mm = 0;  ///< how far a pulled handle is from where it was to go
 };
 
-/// Bends the surface of a solid, carved as well as can be, as little as makes it balance (deform_cage()).
+/// Bends the surface of a solid, carved as well as can be, as little as makes it balance and takes the handles where
+/// they are to go (deform_cage()).
 class Bender {
  public:
   /// \pre problem.held has an entry per vertex; the rows are those of the solid as it is.
-  /// \return what build_cage() and SurfaceMotion::make() return.
+  /// \return what build_cage(), mark_regions() and SurfaceMotion::make() return.
   static Result<Bender> make(const SolidMesh& solid, const BendProblem& problem, const CageOptions& options,
                              const Job& job = {});
 

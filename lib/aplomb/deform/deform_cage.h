@@ -20,8 +20,7 @@ struct GroundPlane {
   double plate_mm = 0;
 };
 
-/// A point of the solid that is pulled to a place. Turning, scaling or locking a region is a handle for each of its
-/// points, the targets being where the region should be.
+/// A point of the solid that is pulled to a place.
 struct SoftHandle {
   EmbeddedPoint at;
   Vec3 target_mm;
@@ -33,6 +32,7 @@ struct CageProblem {
   TetMesh rest;
   std::vector<double> solid_share;   ///< per tetrahedron, in (0, 1]
   std::vector<double> stiffness;     ///< per tetrahedron, > 0: 1, or large where the user wants no change
+  std::vector<Mat3> wanted;          ///< per tetrahedron, the F that costs nothing, det > 0; empty: as it is at rest
   std::vector<bool> fixed;           ///< per vertex: contacts and what else must stay
   std::vector<SolidSample> samples;  ///< the solid, for the balance
   BalanceProblem balance;
@@ -82,10 +82,11 @@ using DeformListener = std::function<void(const std::vector<Vec3>& vertices, dou
 ///     minimise  sum_T V_T f_T w_T W(F_T)  +  ground  +  handles         over the free vertices of the cage
 ///     such that a carving exists with g_i(vertices, carving, required_t) >= 0 for every row i
 ///
-/// W is TetEnergy. Prevost et al. 2013 alternate a linear Laplacian deformation with a greedy carving; here the best
-/// carving is part of every iterate (its derivative by the envelope theorem), so both are optimal together.
-/// Projected Newton: each step is the exact minimiser of a convex model under the linearised rows, towards as much of
-/// required_t as `most_step_mm` and `most_mean_mm` allow; so the path is a family of shapes of growing t.
+/// W is TetEnergy, of F_T times the inverse of the wanted F where one is wanted. Prevost et al. 2013 alternate a linear
+/// Laplacian deformation with a greedy carving; here the best carving is part of every iterate (its derivative by the
+/// envelope theorem), so both are optimal together. Projected Newton: each step is the exact minimiser of a convex
+/// model under the linearised rows, towards as much of required_t as `most_step_mm` and `most_mean_mm` allow; so the
+/// path is a family of shapes of growing t.
 ///
 /// A row whose b is zero (it holds or does not, whatever t is) counts as  a - (t - required_t) size: the same condition
 /// at required_t, and a distance to it elsewhere.

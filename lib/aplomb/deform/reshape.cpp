@@ -77,8 +77,7 @@ std::string find_problem(const ReshapeOptions& o) {
     return fmt::format("most_mean_percent is {}; it must lie in (0, 100]", o.most_mean_percent);
   if (o.most_trim_mm && !(*o.most_trim_mm >= 0 && *o.most_trim_mm <= 1e4))
     return fmt::format("most_trim_mm is {}; it must lie in [0, 10000]", *o.most_trim_mm);
-  for (const KeptBall& ball : o.kept)
-    if (!(ball.radius_mm > 0)) return fmt::format("a kept ball's radius_mm is {}; it must be positive", ball.radius_mm);
+  if (std::string problem = find_problem(o.regions); !problem.empty()) return problem;
   if (!(o.wall_mm > 0)) return fmt::format("wall_mm is {}; it must be positive", o.wall_mm);
   return {};
 }
@@ -98,14 +97,14 @@ Result<Reshaper> Reshaper::make(const SolidMesh& solid, const std::vector<Pose>&
       else parts.trims.chosen_mm = 0;
     }
     for (const TrimGain& gain : parts.trims.gains)
-      parts.cut_serves |= parts.trims.chosen_mm > 0 && gain.trim_mm == parts.trims.chosen_mm &&
-                          gain.t >= std::tan(pose->required_tip_rad);
+      parts.cut_serves |= options.regions.handles.empty() && parts.trims.chosen_mm > 0 &&
+                          gain.trim_mm == parts.trims.chosen_mm && gain.t >= std::tan(pose->required_tip_rad);
   }
   const auto joint = joint_problem(parts.solid.mesh(), poses, kind);
   if (!joint) return tl::unexpected(joint.error());
   parts.required_t = joint->required_t;
   parts.options.most_mean_mm = options.most_mean_percent / 100 * solid.box().size().z;
-  BendProblem problem{joint->problem, std::vector<bool>(parts.solid.mesh().vertices.size()), {}, {}, options.kept};
+  BendProblem problem{joint->problem, std::vector<bool>(parts.solid.mesh().vertices.size()), {}, {}, options.regions};
   for (const Pose& pose : poses) hold(pose, parts.solid, problem);
   auto bender = Bender::make(parts.solid, problem, {.wall_mm = wall_of(solid, options)}, job.part(0.5, 1));
   if (!bender) return tl::unexpected(bender.error());

@@ -14,7 +14,7 @@ namespace aplomb {
 struct ReshapeOptions {
   double most_mean_percent = 5;          ///< of the height: the mean displacement of a bend, in (0, 100]
   std::optional<double> most_trim_mm{};  ///< what may be cut off the base, >= 0; none: 1 % of the height
-  std::vector<KeptBall> kept{};          ///< radii > 0
+  Regions regions{};                     ///< what is to become of parts of it
   double wall_mm = 2;                    ///< > 0
   bool carves = true;                    ///< false: the solid stays solid, and the bend does it all
 };

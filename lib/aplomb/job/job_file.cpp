@@ -82,10 +82,6 @@ class Reader {
     if (const auto at = json_.find(key); at != json_.end())
       field = static_cast<Enum>(index_of(names, at->get<std::string>()));
   }
-  void balls(const char* key, std::vector<KeptBall>& field) const {
-    if (const auto at = json_.find(key); at != json_.end())
-      for (const Json& ball : *at) field.push_back({vec_of(ball["at_mm"]), ball["radius_mm"].get<double>()});
-  }
   void memory(const char* key, std::size_t& field_bytes) const {
     if (const auto at = json_.find(key); at != json_.end())
       field_bytes = static_cast<std::size_t>(std::llround(at->get<double>() * 1e6));
@@ -93,16 +89,18 @@ class Reader {
   void preset(const char* key, double& field, std::optional<double> (*named)(std::string_view)) const {
     if (const auto at = json_.find(key); at != json_.end()) field = named(at->get<std::string>()).value_or(field);
   }
+  template <class Point>
+  void point(const char* key, Point& field) const {
+    if (const auto at = json_.find(key); at != json_.end()) field = vec_of(*at);
+  }
   void points(const char* key, std::vector<Vec3>& field) const {
     if (const auto at = json_.find(key); at != json_.end())
       for (const Json& point : *at) field.push_back(vec_of(point));
   }
-  void contacts(const char* key, std::vector<JobContact>& field) const {
+  template <class Item, class Visit>
+  void list(const char* key, std::vector<Item>& field, const Visit& visit) const {
     if (const auto at = json_.find(key); at != json_.end())
-      for (const Json& contact : *at) {
-        field.push_back({vec_of(contact["at_mm"]), {}});
-        Reader(contact, folder_).value("radius_mm", field.back().radius_mm);
-      }
+      for (const Json& item : *at) visit(Reader(item, folder_), field.emplace_back());
   }
   template <class Visit>
   void group(const char* key, const Visit& visit) const {
@@ -163,24 +161,24 @@ class Writer {
   void name(const char* key, const std::array<const char*, N>& names, Enum field) const {
     json_[key] = names[static_cast<std::size_t>(field)];
   }
-  void balls(const char* key, const std::vector<KeptBall>& field) const {
-    if (field.empty()) return;
-    json_[key] = Json::array();
-    for (const KeptBall& ball : field)
-      json_[key].push_back({{"at_mm", json_of(ball.center_mm)}, {"radius_mm", ball.radius_mm}});
-  }
   void memory(const char* key, std::size_t field_bytes) const { json_[key] = static_cast<double>(field_bytes) / 1e6; }
   void preset(const char*, double, std::optional<double> (*)(std::string_view)) const {}  // its number is written
+  void point(const char* key, Vec3 field) const { json_[key] = json_of(field); }
+  void point(const char* key, const std::optional<Vec3>& field) const {
+    if (field) json_[key] = json_of(*field);
+  }
   void points(const char* key, const std::vector<Vec3>& field) const {
     json_[key] = Json::array();
     for (const Vec3& point : field) json_[key].push_back(json_of(point));
   }
-  void contacts(const char* key, const std::vector<JobContact>& field) const {
+  template <class Item, class Visit>
+  void list(const char* key, std::vector<Item>& field, const Visit& visit) const {
     if (field.empty()) return;
     json_[key] = Json::array();
-    for (const JobContact& contact : field) {
-      json_[key].push_back({{"at_mm", json_of(contact.center_mm)}});
-      if (contact.radius_mm) json_[key].back()["radius_mm"] = *contact.radius_mm;
+    for (Item& item : field) {
+      Json inner = Json::object();
+      visit(Writer(inner, folder_), item);
+      json_[key].push_back(std::move(inner));
     }
   }
   template <class Visit>
@@ -204,6 +202,29 @@ class Writer {
   const fs::path& folder_;
 };
 
+template <class Visitor, class Radius>
+void visit_ball(const Visitor& v, Vec3& center_mm, Radius& radius_mm) {
+  v.point("at_mm", center_mm);
+  v.value("radius_mm", radius_mm);
+}
+
+template <class Visitor>
+void visit_regions(const Visitor& v, Regions& regions) {
+  const auto visit_region = [](const Visitor& b, BallRegion& at) { visit_ball(b, at.center_mm, at.radius_mm); };
+  v.list("stiffness", regions.stiffened, [&](const Visitor& s, StiffRegion& stiff) {
+    visit_region(s, stiff.at);
+    s.value("ratio", stiff.ratio);
+  });
+  v.list("keep", regions.kept, visit_region);
+  v.list("handles", regions.handles, [&](const Visitor& h, Handle& handle) {
+    visit_region(h, handle.at);
+    h.point("to_mm", handle.to_mm);
+    h.turns("turn_deg", handle.turns);
+    h.value("scale", handle.scale_ratio);
+  });
+  v.list("lock", regions.locked, visit_region);
+}
+
 template <class Visitor>
 void visit_pose(const Visitor& v, JobPose& job) {
   v.value("name", job.pose.name);
@@ -213,7 +234,8 @@ void visit_pose(const Visitor& v, JobPose& job) {
       s.angle("tip_deg", standing->required_tip_rad);
       s.value("contact_height_mm", standing->contact_height_mm);
       s.value("xy_error_mm", standing->xy_error_mm);
-      s.contacts("contacts", job.contacts);
+      s.list("contacts", job.contacts,
+             [](const Visitor& c, JobContact& contact) { visit_ball(c, contact.center_mm, contact.radius_mm); });
     });
   else if (auto* hanging = std::get_if<HangingPose>(&job.pose.way))
     v.group("hang", [&](const Visitor& h) {
@@ -246,7 +268,7 @@ void visit_job(const Visitor& v, JobFile& job) {
   v.name("deform", deform_names, job.options.deform);
   v.value("deform_limit_percent", job.options.reshape.most_mean_percent);
   v.value("trim_base_mm", job.options.reshape.most_trim_mm);
-  v.balls("keep", job.options.reshape.kept);
+  visit_regions(v, job.options.reshape.regions);
   v.preset("process", job.options.wall_mm, wall_of_process);
   v.value("wall_mm", job.options.wall_mm);
   v.value("voxel_mm", job.options.voxel_mm);

@@ -88,6 +88,7 @@ Json json(const DeformationFigures& d) {
   return {{"outcome", d.outcome},
           {"max_mm", d.max_mm},
           {"mean_mm", d.mean_mm},
+          {"handle_short_mm", d.handle_short_mm},
           {"max_turn_deg", degrees(d.max_turn_rad)},
           {"volume_change_percent", 100 * d.volume_change_ratio},
           {"iterations", d.iterations},

@@ -46,6 +46,7 @@ struct DeformationFigures {
   std::vector<Trim> trims;         ///< what cuts would gain
   double mean_mm = 0;              ///< displacement, weighted by the solid's volume
   double max_mm = 0;               ///< of a vertex of the surface
+  double handle_short_mm = 0;      ///< how far a handle that was to be moved is from its place
   double max_turn_rad = 0;         ///< of a piece of the cage; no more than that where the surface stopped earlier
   double volume_change_ratio = 0;  ///< of the solid, the cut included
   int iterations = 0;

@@ -124,6 +124,8 @@ std::string bending(const DeformationFigures& d) {
   const std::string end = d.outcome == "limit"   ? ": all that the limit allows"
                           : d.outcome == "stuck" ? ": no better shape was found"
                                                  : "";
+  if (d.handle_short_mm > 0.1)
+    text += line("handles", figure(d.handle_short_mm) + " mm short of where they were to go");
   return text + line("bent", figure(d.mean_mm) + " mm on average, " + figure(d.max_mm) +
                                  " mm at most, turned by up to " + degrees(d.max_turn_rad) + " degrees" + end);
 }

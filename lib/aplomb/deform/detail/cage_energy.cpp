@@ -32,6 +32,15 @@ TetHessian tet_hessian(const TetShape& shape, const std::array<TetEnergy::Mode, 
   return sum;
 }
 
+/// Slopes that make F S^-1 instead of F.
+std::vector<TetShape> eased(std::vector<TetShape> shapes, const std::vector<Mat3>& wanted) {
+  for (std::size_t t = 0; t < wanted.size(); ++t) {
+    const Mat3 inverse_transposed = 1 / determinant(wanted[t]) * cofactor(wanted[t]);
+    for (Vec3& slope : shapes[t].slopes) slope = inverse_transposed * slope;
+  }
+  return shapes;
+}
+
 }  // namespace
 
 FreeVertices::FreeVertices(const std::vector<bool>& fixed) {
@@ -58,7 +67,7 @@ std::vector<Vec3> FreeVertices::scatter(const double* values) const {
 
 CageEnergy::CageEnergy(const CageProblem& problem, const DeformOptions& options, const std::vector<TetShape>& shapes)
     : problem_(problem),
-      shapes_(shapes),
+      shapes_(eased(shapes, problem.wanted)),
       density_{options.alpha_ratio, options.beta_ratio, options.gamma_ratio},
       free_(problem.fixed),
       holds_(problem.rest.vertices.size()) {

@@ -29,7 +29,7 @@ class FreeVertices {
 
 /// Everything that a change of shape costs (mm3), as a function of the cage's vertices:
 ///
-///     E(v) = sum_T V_T f_T w_T W(F_T)  +  ground  +  handles
+///     E(v) = sum_T V_T f_T w_T W(F_T S_T^-1)  +  ground  +  handles,     S_T the wanted F
 class CageEnergy {
  public:
   CageEnergy(const CageProblem& problem, const DeformOptions& options, const std::vector<TetShape>& shapes);
@@ -61,7 +61,7 @@ class CageEnergy {
   int block_offset(int row_vertex, int column_vertex) const;
 
   const CageProblem& problem_;
-  const std::vector<TetShape>& shapes_;
+  std::vector<TetShape> shapes_;  // their slopes make F S^-1
   TetEnergy density_;
   FreeVertices free_;
   std::vector<double> weights_;  // V_T f_T w_T
