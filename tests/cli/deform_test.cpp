@@ -73,6 +73,15 @@ TEST_F(DeformingCommand, MovesAHandleThoughItStandsAlready) {
   EXPECT_GE(r.at("after").at("tip_deg").get<double>(), 1);
 }
 
+TEST_F(DeformingCommand, DrawsItBeforeAndAfter) {
+  report("--tip 6deg --deform auto --deform-limit 20% --picture " + path("p.png"), 0);
+  const std::string png = text_of("p.png");
+  ASSERT_GT(png.size(), 20'000u);
+  EXPECT_EQ(png.substr(1, 3), "PNG");
+  EXPECT_EQ(png.substr(16, 8), std::string("\0\0\x07\x08\0\0\x02\x94", 8));  // 1800 x 660
+  EXPECT_EQ(run("check " + path("out.stl") + " --picture " + path("no/such/p.png")), 2);
+}
+
 TEST_F(DeformingCommand, SaysWhatIsWrongWithAHandle) {
   const std::string stand = "stand " + write("column.stl", leaning_column()) + " -o " + path("out.stl") + " ";
   const auto error_of = [&](const std::string& flags) {

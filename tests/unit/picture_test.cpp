@@ -7,6 +7,8 @@
 #include <numeric>
 
 #include "aplomb/mesh/mass_properties.h"
+#include "comparison.h"
+#include "figure.h"
 #include "support/shapes.h"
 
 namespace aplomb::picture {
@@ -101,6 +103,39 @@ TEST(Picture, text_leaves_ink_only_near_its_line) {
     }
   }
   EXPECT_GT(ink, 100);
+}
+
+/// However it is held, a body comes to rest with its centre of mass below the thread, or below the line through both.
+TEST(Picture, a_body_hangs_with_its_centre_of_mass_below_the_threads) {
+  const TriangleMesh box = test::box({0, 0, 0}, {30, 10, 10});
+  for (const Vec3 up : {Vec3{0, 0, 1}, Vec3{0.6, 0, 0.8}, Vec3{0, -1, 0}}) {
+    const auto one = hung(box, {.up = up, .attachments_mm = {{2, 3, 10}}});
+    ASSERT_TRUE(one);
+    const Vec3 thread = one->subject.threads_mm.at(0) - *one->subject.com_mm;
+    EXPECT_NEAR(std::hypot(thread.x, thread.y), 0, 1e-9);
+    EXPECT_NEAR(thread.z, norm(Vec3{2, 3, 10} - Vec3{15, 5, 5}), 1e-9);
+    EXPECT_NEAR(bounding_box(one->subject.mesh).min.z, 0, 1e-9);
+  }
+  const auto two = hung(box, {.attachments_mm = {{2, 3, 10}, {20, 3, 10}}});
+  ASSERT_TRUE(two);
+  const Vec3 p = two->subject.threads_mm.at(0), q = two->subject.threads_mm.at(1), com = *two->subject.com_mm;
+  const Vec3 along = normalized(q - p), thread = p - com - dot(along, p - com) * along;
+  EXPECT_NEAR(p.z, q.z, 1e-9);
+  EXPECT_NEAR(std::hypot(thread.x, thread.y), 0, 1e-9);
+  EXPECT_GT(thread.z, 0);
+}
+
+TEST(Picture, before_and_after_has_a_row_for_every_pose) {
+  const TriangleMesh box = test::box({0, 0, 0}, {10, 10, 20});
+  const std::vector<Pose> poses{{.name = "feet"}, {.way = HangingPose{.attachments_mm = {{1, 1, 20}}}}};
+  const auto image = before_and_after(box, box, poses, 50);
+  ASSERT_TRUE(image);
+  EXPECT_EQ(image->width, 150);
+  EXPECT_EQ(image->height, 2 * 55);
+  EXPECT_EQ(as_it_is(box, poses, 50)->width, 100);
+  const auto stopped = before_and_after(box, box, poses, 50, Job([](double, std::string_view) { return false; }));
+  ASSERT_FALSE(stopped);
+  EXPECT_EQ(stopped.error().code, ErrorCode::cancelled);
 }
 
 TEST(Picture, a_folder_that_is_not_there_is_a_file_system_error) {

@@ -132,9 +132,9 @@ TEST_F(Column, BendsLessWhereItIsStiff) {
 }
 
 TEST_F(Column, IsNotToBeMovedWhereThereIsNothingOfIt) {
-  for (const Regions& regions : {Regions{.handles = {{.at = {{0, 0, 200}, 5}, .scale_ratio = 2}}},
-                                 Regions{.kept = {{{0, 0, 200}, 5}}}, Regions{.locked = {{{50, 0, 20}, 0}}},
-                                 Regions{.stiffened = {{{{0, 0, 200}, 5}, 3}}}}) {
+  for (const Regions& regions :
+       {Regions{.handles = {{.at = {{0, 0, 200}, 5}, .scale_ratio = 2}}}, Regions{.kept = {{{0, 0, 200}, 5}}},
+        Regions{.locked = {{{50, 0, 20}, 0}}}, Regions{.stiffened = {{{{0, 0, 200}, 5}, 3}}}}) {
     const auto result = bent(regions);
     ASSERT_FALSE(result);
     EXPECT_EQ(result.error().code, ErrorCode::invalid_option);

@@ -26,7 +26,7 @@ int usage_error(const std::string& problem) {
 
 /// What `aplomb run` may change of a job.
 struct JobOverrides {
-  std::filesystem::path file, output, report;
+  std::filesystem::path file, output, report, picture;
   std::optional<int> threads;
 };
 
@@ -34,6 +34,7 @@ void add_job_flags(CLI::App* app, JobOverrides& overrides, Arguments& a) {
   app->add_option("JOB", overrides.file, "JSON file as lib/aplomb/job/job.schema.json describes")->required();
   app->add_option("-o,--output", overrides.output, "instead of the job's; without any the poses are only checked");
   app->add_option("--report", overrides.report, "instead of the job's");
+  app->add_option("--picture", overrides.picture, "instead of the job's");
   app->add_option("--threads", overrides.threads, "instead of the job's")->check(CLI::NonNegativeNumber);
   app->add_flag("-q,--quiet", a.quiet, "no progress and no summary");
 }
@@ -43,6 +44,7 @@ Result<JobFile> job_of(const JobOverrides& overrides) {
   if (!job) return job;
   if (!overrides.output.empty()) job->output = overrides.output;
   if (!overrides.report.empty()) job->report = overrides.report;
+  if (!overrides.picture.empty()) job->picture = overrides.picture;
   job->threads = overrides.threads.value_or(job->threads);
   return job;
 }
@@ -76,6 +78,8 @@ Parsed parse_arguments(int argc, char** argv) {
       add_carving_flags(sub, a);
       add_reshaping_flags(sub, a);
     }
+    if (command != Command::poses)
+      sub->add_option("--picture", a.job.picture, "draw it before and after, and cut open, as PNG");
     add_run_flags(sub, a);
   }
   app.footer("Exit: 0 stands; 1 usage; 2 input unusable; 3 cannot stand; 4 cancelled; 5 over budget; 7 internal.");

@@ -33,7 +33,8 @@ void take_change(Handle& handle, const std::string& change) {
   const std::string name = change.substr(0, equals);
   const std::string value = equals == std::string::npos ? "" : change.substr(equals + 1);
   if (name == "to") handle.to_mm = vec_of(value, "to=X,Y,Z in mm");
-  else if (name == "turn") handle.turns = turns_about_xyz(angles.front().factor * vec_of(value, "turn=X,Y,Z in degrees"));
+  else if (name == "turn")
+    handle.turns = turns_about_xyz(angles.front().factor * vec_of(value, "turn=X,Y,Z in degrees"));
   else if (name == "scale") handle.scale_ratio = numbers_of("--handle", value, 1, 1, "scale=S")[0];
   else throw CLI::ValidationError("--handle", fmt::format("'{}' is no change; it is {}", change, form));
 }

@@ -16,6 +16,7 @@
 #include "aplomb/report/json.h"
 #include "aplomb/report/landing_list.h"
 #include "aplomb/report/text.h"
+#include "comparison.h"
 #include "interrupt.h"
 
 namespace aplomb::cli {
@@ -122,6 +123,22 @@ Result<Report> write_and_measure(const StandRun& made, const Arguments& a, const
   return report;
 }
 
+constexpr int picture_size = 600;  // pixels across one of its parts
+
+/// Draws what came, and what became of it where there is something.
+Result<void> draw(const Arguments& a, const Input& input, const StandRun* made, const std::vector<Pose>& poses,
+                  const Job& job) {
+  if (a.job.picture.empty()) return {};
+  const TriangleMesh& before = input.solid.mesh();
+  const auto image = made && made->shell
+                         ? picture::before_and_after(before, made->shell->mesh, poses, picture_size, job)
+                         : picture::as_it_is(before, poses, picture_size, job);
+  if (!image) return tl::unexpected(image.error());
+  const auto bytes = picture::encode_png(*image);
+  if (!bytes) return tl::unexpected(bytes.error());
+  return write_file_atomically(a.job.picture, *bytes, remember_temp_file);
+}
+
 int run_stand(const Arguments& a, const Input& input, const StandOptions& options, const Job& job) {
   auto made = stand(input, options, job.part(0, 0.8), dump_into(a.job.dump));
   if (!made) return report_error(made.error());
@@ -130,19 +147,23 @@ int run_stand(const Arguments& a, const Input& input, const StandOptions& option
   if (writes) {
     StageSeconds seconds = made->report.stage_seconds;
     StageClock clock(seconds);
-    auto measured = write_and_measure(*made, a, options, job.part(0.8, 1));
+    auto measured = write_and_measure(*made, a, options, job.part(0.8, 0.9));
     if (!measured) return report_error(measured.error());
     clock.lap("write");
     report = std::move(*measured);
     report.stage_seconds = std::move(seconds);
   }
+  if (const auto drawn = draw(a, input, writes ? &*made : nullptr, options.poses, job.part(0.9, 1)); !drawn)
+    return report_error(drawn.error());
   if (const auto published = publish(report, a); !published) return report_error(published.error());
   return report.outcome == Outcome::best_effort ? Exit::cannot_stand : Exit::stands;
 }
 
 int run_check(const Arguments& a, const Input& input, const StandOptions& options, const Job& job) {
-  auto report = check(input, options, job);
+  auto report = check(input, options, job.part(0, 0.5));
   if (!report) return report_error(report.error());
+  if (const auto drawn = draw(a, input, nullptr, options.poses, job.part(0.5, 1)); !drawn)
+    return report_error(drawn.error());
   if (const auto published = publish(*report, a); !published) return report_error(published.error());
   return report->outcome == Outcome::falls ? Exit::cannot_stand : Exit::stands;
 }

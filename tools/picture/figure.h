@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "aplomb/balance/hanging.h"
 #include "aplomb/balance/standing.h"
 #include "aplomb/core/error.h"
 #include "aplomb/mesh/triangle_mesh.h"
@@ -15,9 +16,17 @@ struct Figure {
   Standing standing;
 };
 
-/// Turns `up` upward, puts the lowest point on the plate and measures at density 1.
+/// Turns the pose's up upward, puts the lowest point on the plate and measures at density 1.
 /// \return unusable_input for a mesh without positive volume; what measure_standing() returns.
-Result<Figure> stood_up(TriangleMesh mesh, Vec3 up, double contact_height_mm);
+Result<Figure> stood_up(TriangleMesh mesh, StandingPose pose);
+
+/// A body as it comes to rest on its threads.
+struct Hung {
+  Subject subject;      ///< the threads upward, the lowest point on z = 0
+  std::string verdict;  ///< "hangs askew by 2.3 degrees", with the degree sign
+};
+/// \return unusable_input for a mesh without positive volume.
+Result<Hung> hung(TriangleMesh mesh, const HangingPose& pose);
 
 /// With its support polygon and centre of mass.
 Subject drawn(const Figure& figure);
@@ -28,8 +37,8 @@ Subject as_it_comes_to_rest(const Figure& figure);
 /// From where a fall is seen from the side, going to the right, a little from the front.
 double azimuth_for_rad(Vec3 heading);
 
-/// The vertical plane through the centre of mass along `heading`, opened towards the viewer.
-Cut section_along(const Figure& figure, Vec3 heading, double azimuth_rad);
+/// The vertical plane through the point along `heading`, opened towards the viewer.
+Cut section_along(Vec3 point_mm, Vec3 heading, double azimuth_rad);
 
 /// "falls" or "stands to 12.3 degrees", with the degree sign.
 std::string verdict(const Figure& figure);

@@ -49,14 +49,14 @@ Result<Figure> read_figure(const std::string& path, const Request& request) {
   return read_mesh(path).and_then([&](const MeshFile& file) {
     TriangleMesh mesh;
     for (const MeshObject& object : file.objects) mesh = joined(std::move(mesh), object.mesh);
-    return stood_up(std::move(mesh), direction(request.up), request.contact_height_mm);
+    return stood_up(std::move(mesh), {.up = direction(request.up), .contact_height_mm = request.contact_height_mm});
   });
 }
 
 Image one_figure(const Request& request, const Figure& figure) {
   const Vec3 heading = heading_of(request, figure);
   View view = view_of(request, heading);
-  if (request.section) view.cut = section_along(figure, heading, view.azimuth_rad);
+  if (request.section) view.cut = section_along(figure.standing.stability.com_mm, heading, view.azimuth_rad);
   Subject subject = request.toppled ? as_it_comes_to_rest(figure) : drawn(figure);
   if (request.bare) {
     subject.com_mm.reset();
@@ -83,7 +83,7 @@ Image before_and_after(const Request& request, const Figure& before, const Figur
   const Image first = render(fallen, view).image;
   view.frame_mm = frame(upright);
   View opened = view;
-  opened.cut = section_along(after, heading, view.azimuth_rad);
+  opened.cut = section_along(after.standing.stability.com_mm, heading, view.azimuth_rad);
   const Image second = render(standing, opened).image;
   const Image third = render(standing, view).image;
   return side_by_side(

@@ -27,6 +27,7 @@ struct Subject {
   TriangleMesh mesh;                          ///< closed; voids are its reversed shells
   std::vector<Vec2> support_polygon_mm = {};  ///< drawn on the plate; empty: none
   std::optional<Vec3> com_mm = {};            ///< drawn as a ball with its plumb line, seen through the figure
+  std::vector<Vec3> threads_mm = {};          ///< points from which it hangs: drawn as lines upward
   Colour colour = {0.66F, 0.29F, 0.17F};
 };
 
@@ -76,6 +77,12 @@ struct Panel {
 };
 /// \pre Not empty, all of one height.
 Image side_by_side(const std::vector<Panel>& panels);
+
+/// One under another, all of one width. \pre Not empty.
+Image one_below_another(const std::vector<Image>& rows);
+
+/// The bytes of a PNG file. \return third_party.
+Result<std::vector<std::byte>> encode_png(const Image& image);
 
 /// \return file_system.
 Result<void> write_png(const std::string& path, const Image& image);

@@ -246,6 +246,8 @@ class Drawing {
       outline.push_back(outline.front());
       draw_stroke(image, outline, thick, blue, 0.85F);
     }
+    for (const Vec3& from : subject_.threads_mm)
+      draw_stroke(image, {pixel(from), pixel(from + Vec3{0, 0, box_.diagonal()})}, thick, {0.02F, 0.02F, 0.03F}, 0.9F);
     if (subject_.com_mm) {
       const Vec3 com = *subject_.com_mm;
       const Vec2 foot = pixel({com.x, com.y, 0});

@@ -196,4 +196,13 @@ Image side_by_side(const std::vector<Panel>& panels) {
   return out;
 }
 
+Image one_below_another(const std::vector<Image>& rows) {
+  Image out{rows.front().width, 0, {}};
+  for (const Image& row : rows) {
+    out.height += row.height;
+    out.rgb.insert(out.rgb.end(), row.rgb.begin(), row.rgb.end());
+  }
+  return out;
+}
+
 }  // namespace aplomb::picture

@@ -99,9 +99,10 @@ Result<void> mark_regions(const Cage& cage, const Regions& regions, CageProblem&
   const auto tets_of = [&](const BallRegion& at, const char* what) {
     std::vector<std::size_t> tets = tets_in(cage, at);
     if (tets.empty())
-      marked = fail(ErrorCode::invalid_option,
-                    fmt::format("the region to {} about ({}) holds nothing of the model, which lies between ({}) and ({})",
-                                what, text_of(at.center_mm), text_of(box.min), text_of(box.max)));
+      marked =
+          fail(ErrorCode::invalid_option,
+               fmt::format("the region to {} about ({}) holds nothing of the model, which lies between ({}) and ({})",
+                           what, text_of(at.center_mm), text_of(box.min), text_of(box.max)));
     return tets;
   };
   for (const StiffRegion& stiff : regions.stiffened)

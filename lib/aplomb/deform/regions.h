@@ -21,14 +21,14 @@ struct StiffRegion {
   double ratio = 1;  ///< times as stiff as the rest, in [0.001, 1000]
 };
 
-/// A region that the user moves, turns or scales: translations, rotations and scalings as Prevost et al. 2013 have them.
-/// The rest follows as little as it must. A region that is turned or scaled and not moved is free to go along with the
-/// solid around it.
+/// A region that the user moves, turns or scales: translations, rotations and scalings as Prevost et al. 2013 have
+/// them. The rest follows as little as it must. A region that is turned or scaled and not moved is free to go along
+/// with the solid around it.
 struct Handle {
   BallRegion at;
-  std::optional<Vec3> to_mm{};     ///< where its centre goes
-  std::vector<AxisTurn> turns{};   ///< in this order, about its centre
-  double scale_ratio = 1;          ///< in [0.2, 5]
+  std::optional<Vec3> to_mm{};    ///< where its centre goes
+  std::vector<AxisTurn> turns{};  ///< in this order, about its centre
+  double scale_ratio = 1;         ///< in [0.2, 5]
 };
 
 /// What the user wants of parts of the solid; where they overlap, what comes later here holds.

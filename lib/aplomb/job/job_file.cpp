@@ -253,6 +253,7 @@ void visit_job(const Visitor& v, JobFile& job) {
   v.path("output", job.output);
   v.path("report", job.report);
   v.path("dump", job.dump);
+  v.path("picture", job.picture);
   v.group("place", [&](const Visitor& place) {
     place.value("object", job.input.object);
     place.up("up", job.input.placement.up);

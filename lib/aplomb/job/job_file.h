@@ -23,10 +23,11 @@ struct JobPose {
 
 /// One run, as a file says it or as a command's flags do.
 struct JobFile {
-  std::filesystem::path model;   ///< "-" is standard input
-  std::filesystem::path output;  ///< empty: the poses are only checked
-  std::filesystem::path report;  ///< empty: none
-  std::filesystem::path dump;    ///< empty: none
+  std::filesystem::path model;    ///< "-" is standard input
+  std::filesystem::path output;   ///< empty: the poses are only checked
+  std::filesystem::path report;   ///< empty: none
+  std::filesystem::path dump;     ///< empty: none
+  std::filesystem::path picture;  ///< empty: none
   InputOptions input;
   std::vector<JobPose> poses{JobPose{}};
   StandOptions options;  ///< all but the poses: see stand_options()

@@ -1,0 +1,104 @@
+#include "comparison.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "figure.h"
+
+namespace aplomb::picture {
+namespace {
+
+/// A figure in a pose, upward z, and what is said of it.
+struct Posed {
+  Subject subject;
+  std::string verdict;
+  Vec3 heading{1, 0, 0};  ///< where it would fall, or across the threads
+  bool has_plate = true;
+};
+
+Result<Posed> posed(const TriangleMesh& mesh, const Pose& pose) {
+  if (const HangingPose* hanging = pose.hanging())
+    return hung(mesh, *hanging).map([](Hung hung) {
+      return Posed{std::move(hung.subject), std::move(hung.verdict), {1, 0, 0}, false};
+    });
+  return stood_up(mesh, *pose.standing()).map([](const Figure& figure) {
+    return Posed{drawn(figure), verdict(figure), figure.standing.stability.heading, true};
+  });
+}
+
+/// Both figures fit into it, each in its middle.
+Box3 frame_for(const Box3& own, Vec3 size) {
+  const Vec3 low{0.5 * (own.min.x + own.max.x - size.x), 0.5 * (own.min.y + own.max.y - size.y), own.min.z};
+  return {low, low + size};
+}
+
+class Row {
+ public:
+  Row(std::vector<Posed> figures, int size) : figures_(std::move(figures)) {
+    for (const Posed& figure : figures_)
+      for (int axis = 0; axis < 3; ++axis)
+        size_[axis] = std::max(size_[axis], bounding_box(figure.subject.mesh).size()[axis]);
+    view_.width = size;
+    view_.height = size;
+    view_.plate = figures_.front().has_plate;
+    view_.azimuth_rad = azimuth_for_rad(figures_.front().heading);
+  }
+
+  Result<Image> draw(const std::string& name, const Job& job) const {
+    const Posed &first = figures_.front(), &last = figures_.back();
+    const std::string head = name.empty() ? "" : name + ": ";
+    std::vector<Panel> panels;
+    if (!job.report(0, "picture")) return cancelled();
+    if (figures_.size() > 1) panels.push_back({picture_of(first, false), head + "before: " + first.verdict});
+    if (!job.report(0.3, "picture")) return cancelled();
+    panels.push_back({picture_of(last, true), "inside"});
+    if (!job.report(0.6, "picture")) return cancelled();
+    panels.push_back({picture_of(last, false), (figures_.size() > 1 ? "after: " : head) + last.verdict});
+    return side_by_side(panels);
+  }
+
+ private:
+  Image picture_of(const Posed& figure, bool is_open) const {
+    View view = view_;
+    view.frame_mm = frame_for(bounding_box(figure.subject.mesh), size_);
+    if (is_open) view.cut = section_along(*figure.subject.com_mm, figures_.front().heading, view.azimuth_rad);
+    return render(figure.subject, view).image;
+  }
+
+  std::vector<Posed> figures_;
+  Vec3 size_;
+  View view_;
+};
+
+Result<Image> pictures(const std::vector<const TriangleMesh*>& meshes, const std::vector<Pose>& poses, int size,
+                       const Job& job) {
+  assert(!poses.empty() && size > 0);
+  std::vector<Image> rows;
+  for (std::size_t n = 0; n < poses.size(); ++n) {
+    std::vector<Posed> figures;
+    for (const TriangleMesh* mesh : meshes) {
+      auto figure = posed(*mesh, poses[n]);
+      if (!figure) return tl::unexpected(figure.error());
+      figures.push_back(std::move(*figure));
+    }
+    const double share = 1 / static_cast<double>(poses.size());
+    const double from = static_cast<double>(n) * share;
+    auto row = Row(std::move(figures), size).draw(poses[n].name, job.part(from, from + share));
+    if (!row) return row;
+    rows.push_back(std::move(*row));
+  }
+  return one_below_another(rows);
+}
+
+}  // namespace
+
+Result<Image> before_and_after(const TriangleMesh& before, const TriangleMesh& after, const std::vector<Pose>& poses,
+                               int size, const Job& job) {
+  return pictures({&before, &after}, poses, size, job);
+}
+
+Result<Image> as_it_is(const TriangleMesh& mesh, const std::vector<Pose>& poses, int size, const Job& job) {
+  return pictures({&mesh}, poses, size, job);
+}
+
+}  // namespace aplomb::picture
