@@ -192,6 +192,27 @@ TEST(Carve, GivesTheMostStableVoidWhenTheAngleIsOutOfReach) {
   EXPECT_EQ(tried.t, best.t);
 }
 
+/// At the largest t only one body is left, and a linear program that is next to infeasible.
+TEST(Carve, MeetsAnAngleThatIsJustWithinItsReach) {
+  Figure figure;
+  const BalanceProblem problem = figure.problem;
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> shift(-12, 12);
+  for (int n = 0; n < 30; ++n) {
+    const Vec3 by{shift(random), shift(random), 0};
+    figure.problem = problem;
+    for (BalanceRow& row : figure.problem.rows) row.a.constant -= dot(row.a.gradient, by);
+    const double highest = figure.carved(CarveAim::stable).t;
+    for (const CarveAim aim : {CarveAim::least, CarveAim::light})
+      for (const double short_t : {0.0, 1e-7, 1e-5}) {
+        const auto carving = carve(figure.volume, figure.solid.moments(), figure.problem,
+                                   {.aim = aim, .required_t = highest - short_t, .least_volume_mm3 = 0});
+        ASSERT_TRUE(carving) << n << ": " << carving.error().message;
+        EXPECT_TRUE(carving->reaches) << n << ", short by " << highest - carving->t;
+      }
+  }
+}
+
 TEST(Carve, MakesAFigureStandOnItsFeetAndOnItsHeadAtOnce) {
   Figure figure;
   const StandingPose head{.up = {0, 0, -1}};

@@ -67,6 +67,7 @@ class Carver {
       if (missing < 0 && plane->t > asked + t_tolerance) break;  // the angle is no limit
       asked += missing;
     }
+    if (carving.t < options_.required_t - t_tolerance) result = cut(stable, carving);
     return std::move(*result);
   }
 

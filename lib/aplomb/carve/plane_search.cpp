@@ -16,6 +16,7 @@ using adapters::LinearSolution;
 namespace {
 
 constexpr int most_planes = 400;
+constexpr double own_t_tolerance = 1e-3;  // by which the half-space of most or least volume may miss t
 
 bool is_condition(const BalanceRow& row) { return row.b.constant == 0 && row.b.gradient == Vec3{}; }
 
@@ -164,6 +165,7 @@ Result<PlaneChoice> PlaneSearch::extreme_volume(VolumeAim aim, double t, const P
   const double sign = aim == VolumeAim::most ? 1 : -1;
   points_.push_back(feasible.body);
   PlaneChoice best = feasible;
+  best.bound = aim == VolumeAim::most ? volume_mm3_ : 0;
   double bound = std::numeric_limits<double>::infinity();  // of sign * volume, scaled
   for (int round = 0; round < most_planes; ++round) {
     if (!job.report(double(round) / (round + 20), "carve")) return cancelled();
@@ -176,14 +178,15 @@ Result<PlaneChoice> PlaneSearch::extreme_volume(VolumeAim aim, double t, const P
     }
     program.rows.push_back({std::vector<double>(points_.size(), 1.0), 1, true});
     const auto solution = adapters::solve(program);
-    if (!solution && round > 0) break;  // what is left is too thin for the simplex method: the bound so far holds
-    if (!solution) return unsolved();
+    if (!solution) break;  // what is left is too thin for the simplex method: choice and bound so far hold
     std::vector<double> weights(problem_.rows.size());
     for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = std::max(0.0, -solution->duals[i]) / scale_;
     const AffineForm kept = AffineForm{sign / volume_mm3_, {}} + combination(weights, t);
     const Moments body = try_plane(kept);
     bound = std::min(bound, kept(body));
-    best = {kept, body, largest_t(problem_, body), sign * bound * volume_mm3_};
+    const double own_t = largest_t(problem_, body);
+    best.bound = sign * bound * volume_mm3_;
+    if (own_t >= t - own_t_tolerance) best = {kept, body, own_t, best.bound};
     if (bound - solution->value < 1e-8) break;
   }
   return best;

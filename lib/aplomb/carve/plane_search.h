@@ -39,8 +39,8 @@ class PlaneSearch {
   /// fulfils the rows with b = 0, which do not depend on t, both are -infinity and the body comes nearest to it.
   Result<PlaneChoice> most_stable(double tolerance, const Job& job = {});
 
-  /// The most (or least) volume with every row at t, to 1e-8 of the uncarved volume; the half-space's own t may differ
-  /// from it a little. \pre `feasible` holds the rows at t.
+  /// The most (or least) volume with every row at t, to 1e-8 of the uncarved volume; the half-space's own t may miss
+  /// it by 1e-3, and is `feasible` itself where only bodies next to it hold the rows. \pre `feasible` holds the rows at t.
   Result<PlaneChoice> extreme_volume(VolumeAim aim, double t, const PlaneChoice& feasible, const Job& job = {});
 
   /// How many planes were tried so far.
