@@ -67,11 +67,12 @@ def prusaslicer(path, report):
     printed, strayed, first_moment = 0.0, 0.0, [0.0] * 3
     core = void_core.VoidCore(voids) if voids else None
     for extrusion in sliced(path, mesh):
-        printed += extrusion.volume
-        middle = (*((a + b) / 2 for a, b in zip(extrusion.start, extrusion.end)), extrusion.z)
-        first_moment = [m + extrusion.volume * at for m, at in zip(first_moment, middle)]
+        (x0, y0), (x1, y1), z, volume = extrusion
+        printed += volume
+        for axis, middle in enumerate(((x0 + x1) / 2, (y0 + y1) / 2, z)):
+            first_moment[axis] += volume * middle
         if core:
-            strayed += extrusion.volume * share_inside(core, extrusion)
+            strayed += extrusion.volume * core.share_along(extrusion.start, extrusion.end, extrusion.z)
     error = relative(printed, intended)
     verdict.expect("extruded volume", abs(error) < 0.01, f"{printed:.0f} mm3, {100 * error:+.2f} %")
     off = [m / printed - told for m, told in zip(first_moment, report["poses"][0]["after"]["com_mm"])]
@@ -94,16 +95,9 @@ def sliced(path, mesh):
         run("prusa-slicer", "--export-gcode", *SLICING, "--center", f"{BED_CENTRE_MM},{BED_CENTRE_MM}", "--output", str(program), path)
         with open(program) as lines:
             for extrusion in gcode.extrusions(lines, FILAMENT_MM):
-                start, end = (tuple(map(sum, zip(point, shift))) for point in (extrusion.start, extrusion.end))
-                yield extrusion._replace(start=start, end=end, z=extrusion.z - LAYER_MM / 2 + low[2])
-
-
-def share_inside(core, extrusion):
-    """The share of an extrusion's path that runs through the core, from a sample in every cell's length."""
-    (x0, y0), (x1, y1) = extrusion.start, extrusion.end
-    samples = max(1, math.ceil(math.dist(extrusion.start, extrusion.end) / core.cell))
-    steps = [(i + 0.5) / samples for i in range(samples)]
-    return sum((x0 + t * (x1 - x0), y0 + t * (y1 - y0), extrusion.z) in core for t in steps) / samples
+                (x0, y0), (x1, y1), top, volume = extrusion
+                start, end = (x0 + shift[0], y0 + shift[1]), (x1 + shift[0], y1 + shift[1])
+                yield gcode.Extrusion(start, end, top - LAYER_MM / 2 + low[2], volume)
 
 
 def manifold(path):

@@ -173,6 +173,8 @@ class Measures(unittest.TestCase):
         self.assertIn((20, 20, 20), core)
         for near_the_wall in ((10.6, 20, 20), (20, 29.4, 20), (20, 20, 10.6)):
             self.assertNotIn(near_the_wall, core)
+        self.assertAlmostEqual(core.share_along((0, 20), (40, 20), 20), 18 / 40, delta=0.02)
+        self.assertEqual(core.share_along((0, 20), (40, 20), 5), 0)
 
     def test_an_island_in_a_void_is_no_void(self):
         island = joined(HOLLOW, leaning_box((15, 15, 15), (25, 25, 25)))
