@@ -43,10 +43,10 @@ CageProblem elephant_problem(double foot_ratio) {
 
 /// How the shape came through.
 struct Damage {
-  double turn_deg = 0;                         ///< the largest
-  double sunk_mm = 0;                          ///< below the plate, or below where it was there
-  double least_volume = 1, most_volume = 1;    ///< det F where the solid fills at least 30 %: less is mostly air
-  double trunk_volume = 1, ear_volume = 1;     ///< of the part, over what it was
+  double turn_deg = 0;                       ///< the largest
+  double sunk_mm = 0;                        ///< below the plate, or below where it was there
+  double least_volume = 1, most_volume = 1;  ///< det F where the solid fills at least 30 %: less is mostly air
+  double trunk_volume = 1, ear_volume = 1;   ///< of the part, over what it was
 };
 
 double volume_mm3(const std::vector<Vec3>& v, const TetMesh::Tet& t) {
@@ -104,9 +104,7 @@ TEST_F(FoldTrap, AnElephantOnSmallFeetLeansToTwentyDegreesInGoodShape) {
   EXPECT_NEAR(d.ear_volume, 1, 0.03);
 }
 
-TEST_F(FoldTrap, ItFoldsOverWhereTurningCostsNothing) {
-  EXPECT_GT(done({.beta_ratio = 0}).turn_deg, 75);
-}
+TEST_F(FoldTrap, ItFoldsOverWhereTurningCostsNothing) { EXPECT_GT(done({.beta_ratio = 0}).turn_deg, 75); }
 
 TEST_F(FoldTrap, ItSinksBelowThePlateWhereThereIsNoGround) { EXPECT_GT(done({.ground_ratio = 0}).sunk_mm, 1); }
 
