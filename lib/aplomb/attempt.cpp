@@ -10,7 +10,10 @@ namespace {
 
 constexpr double aimed_beyond_rad = 0.004 * std::numbers::pi / 180;  // what simplifying the shell may cost
 constexpr int most_carvings = 3;
-constexpr int most_reshapings = 3;
+constexpr double bent_beyond_rad =
+    0.03 * std::numbers::pi / 180;  // beyond what a bend came short of: carving keeps more
+constexpr int most_bends = 3;
+constexpr int most_reshapings = most_bends + 1;  // the first may be a cut alone
 
 Result<Attempt> carve_shell(const SolidVolume& volume, const Input& input, const JointProblem& joint,
                             const StandOptions& options, StageClock& clock, const Job& job) {
@@ -101,6 +104,7 @@ Result<ReshapedAttempt> attempt_reshaping(const Input& input, const StandOptions
       Reshaper::make(input.solid, options.poses, kind_of(options), reshaping_options, job.part(0, 0.2));
   if (!reshaper) return tl::unexpected(reshaper.error());
   double beyond_t = 0;
+  int bends = 0;
   for (int round = 1;; ++round) {
     const Job part = job.part(0.2 + 0.8 * (round - 1) / most_reshapings, 0.2 + 0.8 * round / most_reshapings);
     const auto reshaping = reshaper->reshape(beyond_t, part.part(0, 0.4));
@@ -117,8 +121,9 @@ Result<ReshapedAttempt> attempt_reshaping(const Input& input, const StandOptions
     if (!joint) return tl::unexpected(joint.error());
     const double short_t = shortfall_t(made, *joint);
     const bool at_limit = made.figures.outcome == "limit" || made.figures.outcome == "stuck";
-    if (short_t <= 0 || at_limit || round == most_reshapings) return made;
-    beyond_t += short_t + std::tan(aimed_beyond_rad);
+    if (reshaping->bent) ++bends;
+    if (short_t <= 0 || at_limit || bends == most_bends) return made;
+    beyond_t += short_t + std::tan(bent_beyond_rad);
   }
 }
 

@@ -1,10 +1,16 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <utility>
+#include <vector>
 
 #include "aplomb/io/read_mesh.h"
+#include "aplomb/mesh/tet_mesh.h"
 #include "cli/command_line.h"
+#include "support/elephant.h"
 #include "support/shapes.h"
 #include "support/solids.h"
 
@@ -111,6 +117,48 @@ TEST_F(DeformingCommand, TrimsARoundedBaseInsteadOfBending) {
   EXPECT_LE(d.at("trim_mm").get<double>(), 3);
   EXPECT_EQ(d.at("mean_mm"), 0);
   EXPECT_GE(d.at("trims").size(), 4u);
+}
+
+/// What a part of the surface encloses, its rim closed by a fan: `mesh` has the vertices of `rest`, moved.
+double part_volume_mm3(const TriangleMesh& rest, const TriangleMesh& mesh, bool (*is_part)(Vec3)) {
+  std::vector<Triangle> part;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> rim;  // edges that only one of its triangles has
+  for (const Triangle& t : rest.triangles) {
+    if (!is_part(rest.vertices[t[0]]) || !is_part(rest.vertices[t[1]]) || !is_part(rest.vertices[t[2]])) continue;
+    part.push_back(t);
+    for (std::size_t k = 0; k < 3; ++k) ++rim[std::minmax(t[k], t[(k + 1) % 3])];
+  }
+  std::erase_if(rim, [](const auto& edge) { return edge.second != 1; });
+  Vec3 middle;
+  for (const auto& [edge, count] : rim)
+    middle += 0.5 / static_cast<double>(rim.size()) * (mesh.vertices[edge.first] + mesh.vertices[edge.second]);
+  double volume = 0;
+  for (const auto& [a, b, c] : part)
+    volume += signed_volume(middle, mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]);
+  return volume;
+}
+
+TEST_F(DeformingCommand, AnElephantOnSmallFeetNeitherFoldsNorSinksNorSwellsAndSaysWhatItLacks) {
+  write("elephant.stl", test::elephant_on_small_feet(0.35));
+  const TriangleMesh before = read_mesh(fs::path(path("elephant.stl")))->objects.front().mesh;
+  EXPECT_EQ(
+      run("stand " + path("elephant.stl") + " --tip 20deg --deform auto --trim-base 0 --voxel 0.8mm --best-effort -o " +
+          path("out.3mf") + " --report " + path("r.json")),
+      3);
+  EXPECT_NE(text_of("stderr").find("all that the limit allows"), std::string::npos) << text_of("stderr");
+  EXPECT_NE(text_of("stderr").find("--deform-limit"), std::string::npos) << text_of("stderr");
+  const auto report = nlohmann::json::parse(text_of("r.json"));
+  EXPECT_EQ(report.at("outcome"), "best_effort");
+  EXPECT_EQ(report.at("deformation").at("outcome"), "limit");
+  EXPECT_LT(report.at("deformation").at("max_turn_deg").get<double>(), 45);
+  const TriangleMesh after = read_mesh(fs::path(path("out.3mf")))->objects.front().mesh;
+  ASSERT_GT(after.vertices.size(), before.vertices.size());  // the outside first, then the void
+  for (const Vec3& v : after.vertices) EXPECT_GE(v.z, 0);
+  for (const auto is_part : {test::is_trunk, test::is_left_ear, test::is_right_ear}) {
+    const double was_mm3 = part_volume_mm3(before, before, is_part);
+    EXPECT_GT(was_mm3, 1000);
+    EXPECT_NEAR(part_volume_mm3(before, after, is_part) / was_mm3, 1, 0.03);
+  }
 }
 
 TEST_F(DeformingCommand, RefusesLimitsThatMakeNoSense) {

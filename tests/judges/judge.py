@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Lets programs by others judge a shell: judge.py prusaslicer SHELL, judge.py manifold SHELL, or
-judge.py tilt SHELL --report JSON --table EXE [--contact-height-mm H].
+"""Lets programs by others judge a shell: judge.py manifold SHELL, judge.py prusaslicer SHELL --report JSON, or
+judge.py poses SHELL --report JSON --table EXE [--contact-height-mm H].
 
 SHELL is a 3MF or binary STL as Aplomb writes it. Every judge prints what it measured and ends with 1 when the shell
 does not hold what it promises.
@@ -26,6 +26,7 @@ SLICING = [
     "--fill-pattern", "rectilinear", "--fill-density", "100%", "--filament-diameter", str(FILAMENT_MM),
     "--nozzle-diameter", "0.4", "--layer-height", str(LAYER_MM), "--first-layer-height", str(LAYER_MM),
     "--first-layer-extrusion-width", "0.45", "--elefant-foot-compensation", "0", "--skirts", "0", "--brim-width", "0",
+    "--no-thick-bridges",  # a round bead of the nozzle in a layer of 0.1 mm is three times what the layer holds
     "--infill-overlap", "0%",  # what overlaps is laid twice: at 10 % that is 1.5 % of a wall of 1.6 mm
     "--slicing-mode", "regular", "--bed-shape=0x0,1000x0,1000x1000,0x1000", "--max-print-height", "1000",
 ]
@@ -51,8 +52,9 @@ def run(*command):
     return subprocess.run(command, check=True, capture_output=True, text=True).stdout
 
 
-def prusaslicer(path):
-    """The shell is manifold, has the volume meant, and sliced solid it prints that volume and leaves the voids empty."""
+def prusaslicer(path, report):
+    """The shell is manifold, has the volume meant, and sliced solid it prints that volume, its centre of mass where the
+    report has it, and leaves the voids empty."""
     verdict = Verdict()
     mesh = shells.read(path)
     outer, voids = shells.split_voids(mesh)
@@ -62,14 +64,20 @@ def prusaslicer(path):
     error = relative(float(told["volume"]), intended)
     verdict.expect("volume = outer - voids", abs(error) < 1e-3, f"{told['volume']} mm3, {error:+.1e}")
 
-    printed, strayed = 0.0, 0.0
+    printed, strayed, first_moment = 0.0, 0.0, [0.0] * 3
     core = void_core.VoidCore(voids) if voids else None
     for extrusion in sliced(path, mesh):
-        printed += extrusion.volume
+        (x0, y0), (x1, y1), z, volume = extrusion
+        printed += volume
+        for axis, middle in enumerate(((x0 + x1) / 2, (y0 + y1) / 2, z)):
+            first_moment[axis] += volume * middle
         if core:
-            strayed += extrusion.volume * share_inside(core, extrusion)
+            strayed += extrusion.volume * core.share_along(extrusion.start, extrusion.end, extrusion.z)
     error = relative(printed, intended)
     verdict.expect("extruded volume", abs(error) < 0.01, f"{printed:.0f} mm3, {100 * error:+.2f} %")
+    off = [m / printed - told for m, told in zip(first_moment, report["poses"][0]["after"]["com_mm"])]
+    error = math.hypot(*off)
+    verdict.expect("extruded centre of mass", error < 0.3, f"off by {error:.3f} mm ({off[0]:+.3f}, {off[1]:+.3f}, {off[2]:+.3f})")
     if core:
         verdict.expect("voids have a core", core.volume() > 0, f"{len(voids)} voids, core of {core.volume():.0f} mm3")
         verdict.expect("nothing printed in the core", strayed == 0, f"{strayed:.3f} mm3")
@@ -87,16 +95,9 @@ def sliced(path, mesh):
         run("prusa-slicer", "--export-gcode", *SLICING, "--center", f"{BED_CENTRE_MM},{BED_CENTRE_MM}", "--output", str(program), path)
         with open(program) as lines:
             for extrusion in gcode.extrusions(lines, FILAMENT_MM):
-                start, end = (tuple(map(sum, zip(point, shift))) for point in (extrusion.start, extrusion.end))
-                yield extrusion._replace(start=start, end=end, z=extrusion.z - LAYER_MM / 2 + low[2])
-
-
-def share_inside(core, extrusion):
-    """The share of an extrusion's path that runs through the core, from a sample in every cell's length."""
-    (x0, y0), (x1, y1) = extrusion.start, extrusion.end
-    samples = max(1, math.ceil(math.dist(extrusion.start, extrusion.end) / core.cell))
-    steps = [(i + 0.5) / samples for i in range(samples)]
-    return sum((x0 + t * (x1 - x0), y0 + t * (y1 - y0), extrusion.z) in core for t in steps) / samples
+                (x0, y0), (x1, y1), top, volume = extrusion
+                start, end = (x0 + shift[0], y0 + shift[1]), (x1 + shift[0], y1 + shift[1])
+                yield gcode.Extrusion(start, end, top - LAYER_MM / 2 + low[2], volume)
 
 
 def manifold(path):
@@ -114,24 +115,45 @@ def manifold(path):
     return verdict
 
 
-def tilt(path, report, table, contact_height_mm):
-    """The report's numbers are the file's, and on Bullet's tilt table the body stands exactly as far as it says."""
+def poses(path, report, table, contact_height_mm):
+    """The report's numbers are the file's, and every pose of the report is held as it says."""
     verdict = Verdict()
     mesh = shells.read(path)
+    for pose in report["poses"]:
+        body = shells.body(mesh)
+        after = pose["after"]
+        error = relative(after["volume_mm3"], body.volume)
+        verdict.expect("volume of the report", abs(error) < 1e-6, f"{error:+.1e}")
+        error = math.dist(after["com_mm"], body.centroid)
+        verdict.expect("centre of mass of the report", error < 1e-3, f"off by {error:.1e} mm")
+        if pose["kind"] == "hanging":
+            hang(verdict, body, pose)
+        else:
+            stand(verdict, shells.turned_upright(mesh, pose["up"]), after, table, contact_height_mm)
+    return verdict
+
+
+def stand(verdict, mesh, after, table, contact_height_mm):
+    """On Bullet's tilt table the body stands exactly as far as the report says."""
     body = shells.body(mesh)
     polygon = shells.support_polygon(mesh, contact_height_mm)
-    after = report["after"]
-    error = relative(after["volume_mm3"], body.volume)
-    verdict.expect("volume of the report", abs(error) < 1e-6, f"{error:+.1e}")
-    error = math.dist(after["com_mm"], body.centroid)
-    verdict.expect("centre of mass of the report", error < 1e-3, f"off by {error:.1e} mm")
     plate = min(mesh.vertices[i][2] for triangle in mesh.triangles for i in triangle)
-    angles = [tip_angle(body.centroid, plate, edge) for edge in edges(polygon)]
-    weakest = min(angles)
+    weakest = min(tip_angle(body.centroid, plate, edge) for edge in edges(polygon))
     error = math.degrees(weakest) - after["tip_deg"]
     verdict.expect("tip angle of the report", abs(error) < 0.01, f"{after['tip_deg']:.3f} degrees, off by {error:.1e}")
     judge_on_table(verdict, body, plate, polygon, math.radians(after["tip_deg"]), table)
-    return verdict
+
+
+def hang(verdict, body, pose):
+    """From one thread a body comes to rest with its centre of mass straight below: so far from `up` it hangs."""
+    attachment, = pose["attachments_mm"]
+    thread = shells.minus(attachment, body.centroid)
+    up = pose["up"]
+    tilt = math.degrees(math.atan2(math.hypot(*shells.cross(up, thread)), shells.dot(up, thread)))
+    error = tilt - pose["after"]["tilt_deg"]
+    verdict.expect("tilt of the report", abs(error) < 0.01, f"{tilt:.3f} degrees, off by {error:.1e}")
+    allowed = pose["required_tilt_deg"]
+    verdict.expect("hangs as asked", (tilt <= allowed) == pose["holds"], f"{tilt:.3f} of {allowed:.3f} degrees")
 
 
 def edges(polygon):
@@ -196,17 +218,21 @@ def ask(table, body, plate, polygon, questions):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("judge", choices=["prusaslicer", "manifold", "tilt"])
+    parser.add_argument("judge", choices=["prusaslicer", "manifold", "poses"])
     parser.add_argument("shell")
     parser.add_argument("--report")
     parser.add_argument("--table")
     parser.add_argument("--contact-height-mm", type=float, default=0.1)
     arguments = parser.parse_args()
-    if arguments.judge == "tilt":
-        with open(arguments.report) as file:
-            verdict = tilt(arguments.shell, json.load(file), arguments.table, arguments.contact_height_mm)
+    if arguments.judge == "manifold":
+        verdict = manifold(arguments.shell)
     else:
-        verdict = {"prusaslicer": prusaslicer, "manifold": manifold}[arguments.judge](arguments.shell)
+        with open(arguments.report) as file:
+            report = json.load(file)
+        if arguments.judge == "prusaslicer":
+            verdict = prusaslicer(arguments.shell, report)
+        else:
+            verdict = poses(arguments.shell, report, arguments.table, arguments.contact_height_mm)
     return 1 if verdict.wrong else 0
 
 

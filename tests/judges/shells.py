@@ -68,6 +68,18 @@ def dot(a, b):
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
+def turned_upright(mesh, up):
+    """The mesh turned so that `up` points along +z; as it is where it does."""
+    length = math.hypot(*up)
+    up = tuple(u / length for u in up)
+    if up == (0, 0, 1):
+        return mesh
+    side = cross(up, min(((1, 0, 0), (0, 1, 0), (0, 0, 1)), key=lambda axis: abs(dot(axis, up))))
+    side = tuple(s / math.hypot(*side) for s in side)
+    axes = (side, cross(up, side), up)
+    return Mesh([tuple(dot(axis, v) for axis in axes) for v in mesh.vertices], mesh.triangles)
+
+
 def components(mesh):
     """Triangles grouped by the closed surface that they belong to, as meshes with the same vertices."""
     parent = list(range(len(mesh.vertices)))

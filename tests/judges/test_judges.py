@@ -50,16 +50,35 @@ def wrong_in_file(judgement, mesh, *arguments):
         return wrong(judgement, path, *arguments)
 
 
+def standing(mesh, up=(0, 0, 1), **after):
+    body = shells.body(mesh)
+    return {"kind": "standing", "up": up, "after": {"volume_mm3": body.volume, "com_mm": body.centroid, **after}}
+
+
 class Prusaslicer(unittest.TestCase):
+    def judgement(self, mesh, com_mm=(20, 20, 20)):
+        return wrong_in_file(judge.prusaslicer, mesh, {"poses": [standing(mesh, com_mm=com_mm)]})
+
     def test_passes_a_void_that_is_wound_inward(self):
-        self.assertEqual(wrong_in_file(judge.prusaslicer, HOLLOW), [])
+        self.assertEqual(self.judgement(HOLLOW), [])
+
+    def test_passes_a_void_that_shifts_the_centre_of_mass(self):
+        mesh = joined(CUBE, reversed_mesh(leaning_box((4, 10, 16), (24, 30, 36))))
+        self.assertGreater(math.dist(shells.body(mesh).centroid, (20, 20, 20)), 1)
+        self.assertEqual(self.judgement(mesh, shells.body(mesh).centroid), [])
+
+    def test_fails_a_centre_of_mass_that_is_not_what_is_printed(self):
+        box = leaning_box((10, 10, 10), (20, 20, 20))
+        self.assertEqual(self.judgement(box, (15.2, 15, 15)), [])
+        for wrong_mm in ((15.4, 15, 15), (15, 14.6, 15), (15, 15, 15.4)):
+            self.assertEqual(self.judgement(box, wrong_mm), ["extruded centre of mass"])
 
     def test_fails_a_void_that_is_wound_outward(self):
-        self.assertEqual(wrong_in_file(judge.prusaslicer, WRONGLY_WOUND),
+        self.assertEqual(self.judgement(WRONGLY_WOUND),
                          ["volume = outer - voids", "extruded volume", "nothing printed in the core"])
 
     def test_fails_a_void_with_a_missing_triangle(self):
-        self.assertIn("manifold", wrong_in_file(judge.prusaslicer, TORN))
+        self.assertIn("manifold", self.judgement(TORN))
 
 
 class Manifold(unittest.TestCase):
@@ -77,9 +96,8 @@ class Tilt(unittest.TestCase):
     """A leaning box's centre of mass stands at (w + lean)/2 of its base: it tips at atan((w - lean) / h)."""
 
     def judgement(self, mesh, promised_deg, **changes):
-        body = shells.body(mesh)
-        after = {"volume_mm3": body.volume, "com_mm": body.centroid, "tip_deg": promised_deg, **changes}
-        return wrong_in_file(judge.tilt, mesh, {"after": after}, TABLE, 0.001)
+        report = {"poses": [standing(mesh, tip_deg=promised_deg, **changes)]}
+        return wrong_in_file(judge.poses, mesh, report, TABLE, 0.001)
 
     def test_passes_the_closed_form_of_a_box(self):
         self.assertEqual(self.judgement(leaning_box((0, 0, 0), (20, 30, 60)), math.degrees(math.atan(20 / 60))), [])
@@ -108,6 +126,40 @@ class Tilt(unittest.TestCase):
         self.assertEqual(self.judgement(box, angle, com_mm=[10, 15, 30.1]), ["centre of mass of the report"])
 
 
+    def test_judges_every_pose_by_its_own_way_up(self):
+        """A box that is h long tips at atan(w / h) on its end, and at atan(h / w) on its side."""
+        box, on_end = leaning_box((0, 0, 0), (20, 30, 60)), math.degrees(math.atan(20 / 60))
+        on_side = math.degrees(math.atan(30 / 20))
+        for promised, found in ((on_side, []), (on_end, ["tip angle of the report"])):
+            report = {"poses": [standing(box, tip_deg=on_end), standing(box, up=(-2, 0, 0), tip_deg=promised)]}
+            self.assertEqual(wrong_in_file(judge.poses, box, report, TABLE, 0.001)[:1], found)
+
+
+class Hang(unittest.TestCase):
+    """A box that hangs from a point on its top, d beside the middle, tilts by atan(d / half its height)."""
+
+    TILT_DEG = math.degrees(math.atan(5 / 30))
+
+    def judgement(self, **changes):
+        box = leaning_box((0, 0, 0), (20, 30, 60))
+        pose = {**standing(box, tilt_deg=changes.pop("tilt_deg", self.TILT_DEG)), "kind": "hanging", "holds": True,
+                "attachments_mm": [(15, 15, 60)], "required_tilt_deg": 10, **changes}
+        return wrong_in_file(judge.poses, box, {"poses": [pose]}, TABLE, 0.001)
+
+    def test_passes_the_closed_form_of_a_box(self):
+        self.assertEqual(self.judgement(), [])
+
+    def test_fails_an_angle_that_is_not_the_files(self):
+        for wrong_by in (-0.02, 0.02):
+            self.assertEqual(self.judgement(tilt_deg=self.TILT_DEG + wrong_by), ["tilt of the report"])
+
+    def test_fails_another_way_up(self):
+        self.assertIn("tilt of the report", self.judgement(up=(0.1, 0, 1)))
+
+    def test_fails_an_angle_that_is_more_than_was_asked_for(self):
+        self.assertEqual(self.judgement(required_tilt_deg=9), ["hangs as asked"])
+
+
 class Measures(unittest.TestCase):
     def test_inertia_of_a_box_is_the_closed_form(self):
         body = shells.body(leaning_box((5, 5, 5), (25, 35, 65)))
@@ -121,6 +173,8 @@ class Measures(unittest.TestCase):
         self.assertIn((20, 20, 20), core)
         for near_the_wall in ((10.6, 20, 20), (20, 29.4, 20), (20, 20, 10.6)):
             self.assertNotIn(near_the_wall, core)
+        self.assertAlmostEqual(core.share_along((0, 20), (40, 20), 20), 18 / 40, delta=0.02)
+        self.assertEqual(core.share_along((0, 20), (40, 20), 5), 0)
 
     def test_an_island_in_a_void_is_no_void(self):
         island = joined(HOLLOW, leaning_box((15, 15, 15), (25, 25, 25)))

@@ -28,6 +28,15 @@ class VoidCore:
         i, j, k = (math.floor((p - o) / self.cell) for p, o in zip(point, self.origin))
         return k >= 0 and self.columns.get((i, j), 0) >> k & 1 == 1
 
+    def share_along(self, start, end, z):
+        """The share of a level path that runs inside, from a sample in every cell's length."""
+        samples = max(1, math.ceil(math.dist(start, end) / self.cell))
+        layer = 1 << max(0, math.floor((z - self.origin[2]) / self.cell))
+        dx, dy = ((b - a) / samples / self.cell for a, b in zip(start, end))
+        x, y = ((a - o) / self.cell for a, o in zip(start, self.origin))
+        steps = [i + 0.5 for i in range(samples)]
+        return sum(self.columns.get((math.floor(x + s * dx), math.floor(y + s * dy)), 0) & layer != 0 for s in steps) / samples
+
     def _cross(self, a, b, c):
         """Flips, in every column whose axis meets the triangle, the cells whose centre lies above it."""
         area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])

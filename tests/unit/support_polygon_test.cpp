@@ -32,6 +32,15 @@ bool is_strictly_convex_and_counter_clockwise(const std::vector<Vec2>& corners) 
   return n >= 3;
 }
 
+TEST(SupportPolygon, WidthIsThatOfTheBoxHoweverItIsTurned) {
+  const TriangleMesh box = test::box({1, 2, 3}, {5, 8, 20});
+  for (int turn = 0; turn < 180; ++turn) {
+    const TriangleMesh turned = transformed(box, test::rotation({0, 0, 1}, turn * pi / 90));
+    EXPECT_NEAR(support_of(turned).width_mm(), 4, 1e-9) << turn;
+    EXPECT_NEAR(support_of(turned, {.up = {0, 0, -1}}).width_mm(), 4, 1e-9) << turn;
+  }
+}
+
 TEST(SupportPolygon, OfABoxIsItsBase) {
   const SupportPolygon support = support_of(test::box({1, 2, 3}, {5, 8, 20}));
   EXPECT_EQ(support.corners_mm, (std::vector<Vec2>{{1, 2}, {5, 2}, {5, 8}, {1, 8}}));

@@ -105,7 +105,7 @@ double SupportPolygon::width_mm() const {
   if (degenerate()) return 0;
   const std::size_t n = corners_mm.size();
   double width = infinity;
-  std::size_t far = 0;  // rotating calipers: the corner farthest from the edge only ever moves on
+  std::size_t far = 1;  // rotating calipers: the corner farthest from the edge only ever moves on, from the edge's end
   for (const SupportEdge& edge : edges()) {
     const auto altitude = [&](std::size_t corner) { return dot(edge.inward, corners_mm[corner % n] - edge.from_mm); };
     for (std::size_t step = 0; step < n && altitude(far + 1) >= altitude(far); ++step) ++far;
