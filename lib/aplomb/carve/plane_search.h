@@ -40,7 +40,8 @@ class PlaneSearch {
   Result<PlaneChoice> most_stable(double tolerance, const Job& job = {});
 
   /// The most (or least) volume with every row at t, to 1e-8 of the uncarved volume; the half-space's own t may miss
-  /// it by 1e-3, and is `feasible` itself where only bodies next to it hold the rows. \pre `feasible` holds the rows at t.
+  /// it by 1e-3, and is `feasible` itself where only bodies next to it hold the rows. \pre `feasible` holds the rows at
+  /// t.
   Result<PlaneChoice> extreme_volume(VolumeAim aim, double t, const PlaneChoice& feasible, const Job& job = {});
 
   /// How many planes were tried so far.
