@@ -8,9 +8,9 @@
 namespace aplomb::bench {
 
 struct ArapOptions {
-  double spacing_mm = 0;       ///< > 0: no vertex is farther from the nearest one that the cage carries
-  double alpha_ratio = 0.02;   ///< CGAL's default: how much neighbouring rotations must agree
-  int iterations = 4;          ///< >= 1
+  double spacing_mm = 0;      ///< > 0: no vertex is farther from the nearest one that the cage carries
+  double alpha_ratio = 0.02;  ///< CGAL's default: how much neighbouring rotations must agree
+  int iterations = 4;         ///< >= 1
 };
 
 /// Smooth as-rigid-as-possible deformation (SRE-ARAP: Levi and Gotsman 2015; CGAL's Surface_mesh_deformation with its

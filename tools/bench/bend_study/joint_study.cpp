@@ -37,12 +37,13 @@ CageProblem carved_beforehand(CageProblem problem, const AffineForm& kept) {
 std::string told(const CageDeformation& cage, const StudyOptions& options) {
   const double percent = 100 * cage.mean_mm / options.height_mm;
   if (cage.outcome == DeformOutcome::reached) return fmt::format("{:.2f}", percent);
-  return fmt::format("{:.1f} deg at {:.1f}", degrees_of(cage.t), percent);
+  const char* end = cage.outcome == DeformOutcome::limit ? "limit" : "stuck";
+  return fmt::format("{}: {:.1f} deg at {:.1f}", end, degrees_of(cage.t), percent);
 }
 
 std::string ratio(const CageDeformation& cage, const CageDeformation& joint) {
   const bool both = cage.outcome == DeformOutcome::reached && joint.outcome == DeformOutcome::reached;
-  return both ? fmt::format("{:.2f}", cage.mean_mm / joint.mean_mm) : "";
+  return both && joint.mean_mm > 0 ? fmt::format("{:.2f}", cage.mean_mm / joint.mean_mm) : "";
 }
 
 Result<void> print_row(const StudyModel& model, const StudyOptions& options) {
@@ -64,8 +65,9 @@ Result<void> print_row(const StudyModel& model, const StudyOptions& options) {
 }  // namespace
 
 Result<void> study_joint(const std::vector<std::string>& models, const StudyOptions& options) {
-  fmt::print("| model | solid deg | carved deg | asked deg | together % | bent only % | carved first % | bent only / "
-             "together | carved first / together |\n|---|---|---|---|---|---|---|---|---|\n");
+  fmt::print(
+      "| model | solid deg | carved deg | asked deg | together % | bent only % | carved first % | bent only / "
+      "together | carved first / together |\n|---|---|---|---|---|---|---|---|---|\n");
   for (const std::string& named : models) {
     const auto model = load_model(named, options);
     if (!model) return tl::unexpected(model.error());

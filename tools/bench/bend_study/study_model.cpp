@@ -1,10 +1,8 @@
 #include "study_model.h"
 
-#include <algorithm>
 #include <cmath>
 #include <ctime>
 #include <filesystem>
-#include <limits>
 #include <numbers>
 
 #include "aplomb/deform/bend.h"
@@ -71,7 +69,7 @@ Result<CageDeformation> bent(CageProblem problem, double required_t, const Study
 }
 
 double asked_t(const StudyOptions& options, double carved_t) {
-  if (options.to_deg != 0) return std::tan(options.to_deg * degree);
+  if (options.to_deg) return std::tan(*options.to_deg * degree);
   return std::tan(std::atan(carved_t) + options.beyond_deg * degree);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,10 +15,10 @@ struct StudyOptions {
   double wall_mm = 2;
   double contact_height_mm = 1;
   double most_mean_percent = 25;  ///< of the height: the mean displacement that a bend may have
-  double to_deg = 0;              ///< the tip angle asked for; 0: what carving reaches and beyond_deg more
+  std::optional<double> to_deg;   ///< the tip angle asked for; none: what carving reaches and beyond_deg more
   double beyond_deg = 3;
-  std::size_t samples = 60000;    ///< of the cage: 6 of them make about one tetrahedron
-  std::string folder;             ///< where surfaces are written; none: they are not
+  std::size_t samples = 60000;  ///< of the cage: 6 of them make about one tetrahedron
+  std::string folder;           ///< where surfaces are written; none: they are not
   /// Of SRE-ARAP: between vertices that the cage carries, in edges of its cubes; CGAL's alpha; iterations.
   std::vector<double> spacings{1, 2}, alphas{0.02, 0.0002};
   int arap_iterations = 4;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <numbers>
+#include <tuple>
 #include <vector>
 
 namespace aplomb::bench {
@@ -89,13 +89,15 @@ double percentile(std::vector<double> values, double ratio) {
 void measure_creases(const TriangleMesh& rest, const TriangleMesh& moved, const std::vector<Edge>& edges,
                      SurfaceQuality& quality) {
   std::vector<double> changes;
-  double squares = 0;
+  double squares = 0, area = 0;
   for (const Edge& edge : edges) {
     const double change = std::remainder(dihedral_rad(moved, edge) - dihedral_rad(rest, edge), 2 * std::numbers::pi);
     changes.push_back(std::abs(change) / degree);
-    squares += changes.back() * changes.back();
+    const double size = std::min(norm(scaled_normal(rest, edge.facets[0])), norm(scaled_normal(rest, edge.facets[1])));
+    squares += size * changes.back() * changes.back();
+    area += size;
   }
-  quality.crease_rms_deg = std::sqrt(squares / static_cast<double>(changes.size()));
+  quality.crease_rms_deg = std::sqrt(squares / area);
   quality.crease_p99_deg = percentile(changes, 0.99);
   quality.crease_max_deg = std::ranges::max(changes);
 }

@@ -48,8 +48,8 @@ Result<std::vector<Method>> moved_surfaces(const StudyModel& model, const std::v
 /// differ by at rest left out.
 double balance_error_deg(const StudyModel& model, const CageDeformation& cage, const TriangleMesh& surface) {
   const auto angle = [&](const Moments& body) { return degrees_of(largest_t(model.problem.balance, body)); };
-  return angle(moments(surface)) - angle(sample_moments(model.problem, cage.vertices)) -
-         angle(model.solid.moments()) + angle(sample_moments(model.problem, model.problem.rest.vertices));
+  return angle(moments(surface)) - angle(sample_moments(model.problem, cage.vertices)) - angle(model.solid.moments()) +
+         angle(sample_moments(model.problem, model.problem.rest.vertices));
 }
 
 Result<void> print_rows(const StudyModel& model, const StudyOptions& options) {
@@ -63,11 +63,13 @@ Result<void> print_rows(const StudyModel& model, const StudyOptions& options) {
     const auto q = measure_quality(model.solid.mesh(), method.surface, (*methods)[1].surface);
     const auto checked = check_solid(method.surface);
     if (!checked) return tl::unexpected(checked.error());
-    fmt::print("| {} | {} | {:.1f} | {:.1f} | {} | {:.3f} | {:.2f} | {:.1f} | {:.3f} | {:.2f} | {} | {:.3f} | {:+.3f} | {:.2f} |\n",
-               model.name, model.solid.mesh().triangles.size(), degrees_of(cage->t), cage->mean_mm, method.name,
-               q.crease_rms_deg, q.crease_p99_deg, q.crease_max_deg, q.unevenness_mean_deg, q.unevenness_p99_deg,
-               checked->defects.self_intersections, q.mean_from_mm, balance_error_deg(model, *cage, method.surface),
-               method.cpu_s);
+    fmt::print(
+        "| {} | {} | {:.1f} | {:.1f} | {} | {:.3f} | {:.2f} | {:.1f} | {:.3f} | {:.2f} | {} | {:.3f} | {:+.3f} | "
+        "{:.2f} |\n",
+        model.name, model.solid.mesh().triangles.size(), degrees_of(cage->t), cage->mean_mm, method.name,
+        q.crease_rms_deg, q.crease_p99_deg, q.crease_max_deg, q.unevenness_mean_deg, q.unevenness_p99_deg,
+        checked->defects.self_intersections, q.mean_from_mm, balance_error_deg(model, *cage, method.surface),
+        method.cpu_s);
     if (options.folder.empty()) continue;
     const auto file = std::filesystem::path(options.folder) / (model.name + "-" + method.name + ".stl");
     if (const auto written = write_mesh(file, method.surface); !written) return written;
@@ -81,7 +83,8 @@ Result<void> print_rows(const StudyModel& model, const StudyOptions& options) {
 Result<void> study_surface(const std::vector<std::string>& models, const StudyOptions& options) {
   fmt::print(
       "| model | triangles | bent to deg | mean mm | surface | crease rms deg | 99 % | max | uneven mean deg | 99 % | "
-      "crossings | from Phong mm | balance error deg | CPU s |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+      "crossings | from Phong mm | balance error deg | CPU s "
+      "|\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   for (const std::string& named : models) {
     const auto model = load_model(named, options);
     if (!model) return tl::unexpected(model.error());
