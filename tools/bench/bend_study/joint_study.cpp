@@ -71,7 +71,7 @@ Result<void> study_joint(const std::vector<std::string>& models, const StudyOpti
   for (const std::string& named : models) {
     const auto model = load_model(named, options);
     if (!model) return tl::unexpected(model.error());
-    if (const auto printed = print_row(*model, options); !printed) return printed;
+    if (auto printed = print_row(*model, options); !printed) return printed;
     std::fflush(stdout);
   }
   return {};

@@ -48,7 +48,7 @@ Result<void> study_preview(const std::vector<std::string>& models, const StudyOp
       "update | "
       "surface CPU ms an update | updates a second |\n|---|---|---|---|---|---|---|---|---|---|\n");
   for (const std::string& named : models)
-    for (const std::size_t samples : {7000UL, 28000UL, 60000UL, 90000UL, 320000UL}) {
+    for (const std::size_t samples : {7000UL, 24000UL, 60000UL, 90000UL, 350000UL}) {
       StudyOptions sized = options;
       sized.samples = samples;
       const double before = cpu_s();

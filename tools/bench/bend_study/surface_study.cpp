@@ -72,7 +72,7 @@ Result<void> print_rows(const StudyModel& model, const StudyOptions& options) {
         method.cpu_s);
     if (options.folder.empty()) continue;
     const auto file = std::filesystem::path(options.folder) / (model.name + "-" + method.name + ".stl");
-    if (const auto written = write_mesh(file, method.surface); !written) return written;
+    if (auto written = write_mesh(file, method.surface); !written) return written;
   }
   if (options.folder.empty()) return {};
   return write_mesh(std::filesystem::path(options.folder) / (model.name + "-before.stl"), model.solid.mesh());
@@ -88,7 +88,7 @@ Result<void> study_surface(const std::vector<std::string>& models, const StudyOp
   for (const std::string& named : models) {
     const auto model = load_model(named, options);
     if (!model) return tl::unexpected(model.error());
-    if (const auto printed = print_rows(*model, options); !printed) return printed;
+    if (auto printed = print_rows(*model, options); !printed) return printed;
     std::fflush(stdout);
   }
   return {};
