@@ -125,12 +125,26 @@ class CageDeformer {
   Result<NewtonStep> newton_step(adapters::SparseCholesky& factors) {
     energy_.forget();
     for (int trial = 1;; ++trial) {
-      if (!factors.factorise(energy_.hessian(now_.vertices)))
-        return fail(ErrorCode::third_party, "the system of the deformation could not be factorised");
-      NewtonStep step = choose_step(model(factors, now_, energy_.model_gradient(now_.vertices)));
-      if (trial == most_trials || !energy_.foresee(now_.vertices, moved(now_.vertices, 1, step.displacement)))
+      auto step = step_of_model(factors);
+      if (!step) return step;
+      if (trial > 1 && leads_nowhere(*step)) {  // what was foreseen presses so hard that nothing else can move
+        energy_.forget();
+        return step_of_model(factors);
+      }
+      if (trial == most_trials || !energy_.foresee(now_.vertices, moved(now_.vertices, 1, step->displacement)))
         return step;
     }
+  }
+
+  Result<NewtonStep> step_of_model(adapters::SparseCholesky& factors) {
+    if (!factors.factorise(energy_.hessian(now_.vertices)))
+      return fail(ErrorCode::third_party, "the system of the deformation could not be factorised");
+    return choose_step(model(factors, now_, energy_.model_gradient(now_.vertices)));
+  }
+
+  /// Neither less energy nor more of t.
+  bool leads_nowhere(const NewtonStep& step) const {
+    return inner(energy_.gradient(now_.vertices), step.displacement) >= 0 && step.t <= now_.carved.t + 1e-9;
   }
 
   /// The step towards as much of the goal as the limits allow; shorter than asked only where even keeping t is too far.
