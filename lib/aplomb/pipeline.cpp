@@ -161,6 +161,17 @@ Result<StandRun> finish(StandRun run, const Input& shaped, std::optional<Attempt
 
 }  // namespace
 
+Result<TriangleMesh> load_print(const std::filesystem::path& path, const InputOptions& options, const Job& job) {
+  const auto file = read_mesh(path, options.read, job);
+  if (!file) return tl::unexpected(file.error());
+  std::string several;
+  const auto print = choose_print(*file, options.object, several);
+  if (!print) return tl::unexpected(print.error());
+  return place(*print, with_file_unit(options.placement, *file)).map([](Placed placed) {
+    return std::move(placed.mesh);
+  });
+}
+
 Result<Input> load_solid(const std::filesystem::path& path, const InputOptions& options, const Job& job,
                          const StageViewer& view) {
   StageSeconds seconds;

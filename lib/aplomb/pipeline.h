@@ -39,6 +39,11 @@ struct Input {
 /// Told what each stage made, for those who want to look: a name such as "2-solid" and the mesh.
 using StageViewer = std::function<void(std::string_view name, const TriangleMesh& mesh)>;
 
+/// Reads a file, chooses one print and places it, as it is.
+///
+/// \return what read_mesh() and place() return; invalid_option when there is no such print.
+Result<TriangleMesh> load_print(const std::filesystem::path& path, const InputOptions& options, const Job& job = {});
+
 /// Reads a file, chooses one print, places it and makes a solid of it.
 ///
 /// \return what read_mesh(), place() and repair() return; unusable_input when the file holds several prints, with their

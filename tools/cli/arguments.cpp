@@ -65,6 +65,7 @@ Parsed parse_arguments(int argc, char** argv) {
       {Command::stand, app.add_subcommand("stand", "carve a model so that it stands")},
       {Command::hang, app.add_subcommand("hang", "carve a model so that it hangs level from one or two points")},
       {Command::poses, app.add_subcommand("poses", "list the ways a model can rest, and how likely each is")},
+      {Command::validate, app.add_subcommand("validate", "judge whether a mesh prints, as it is")},
       {Command::run, app.add_subcommand("run", "run a job file")}};
   for (const auto& [command, sub] : commands) {
     if (command == Command::run) {
@@ -72,17 +73,21 @@ Parsed parse_arguments(int argc, char** argv) {
       continue;
     }
     add_input_flags(sub, a);
-    if (command == Command::check || command == Command::stand) add_standing_flags(sub, a, standing);
+    if (command == Command::check || command == Command::stand || command == Command::validate)
+      add_standing_flags(sub, a, standing);
+    if (command == Command::validate) add_judging_flags(sub, a);
     if (command == Command::hang) add_hanging_flags(sub, hanging);
     if (command == Command::stand || command == Command::hang) {
       add_carving_flags(sub, a);
       add_reshaping_flags(sub, a);
     }
-    if (command != Command::poses)
+    if (command != Command::poses && command != Command::validate)
       sub->add_option("--picture", a.job.picture, "draw it before and after, and cut open, as PNG");
     add_run_flags(sub, a);
   }
-  app.footer("Exit: 0 stands; 1 usage; 2 input unusable; 3 cannot stand; 4 cancelled; 5 over budget; 7 internal.");
+  app.footer(
+      "Exit: 0 stands, or prints; 1 usage; 2 input unusable; 3 cannot stand; 4 cancelled; 5 over budget; 6 does not "
+      "print; 7 internal.");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "aplomb/job/job_file.h"
+#include "aplomb/printability/rules.h"
 
 namespace aplomb::cli {
 
@@ -14,8 +15,9 @@ enum class Command {
   check,
   stand,
   hang,
-  poses,  ///< list the ways it can rest
-  run,    ///< a job file
+  poses,     ///< list the ways it can rest
+  run,       ///< a job file
+  validate,  ///< judge whether it prints
 };
 
 /// What the command line asked for.
@@ -23,6 +25,11 @@ struct Arguments {
   Command command = Command::check;
   JobFile job;                     ///< without an output the poses are only checked
   std::filesystem::path save_job;  ///< where to write `job`; empty: nowhere
+  Process process = Process::fdm;  ///< of validate
+  std::vector<std::pair<std::string, double>> limits;
+  std::vector<std::string> waived;
+  double layer_mm = 0.2;
+  double infill_ratio = 1;
   bool quiet = false;
   std::vector<std::pair<std::string, std::string>> given;  ///< flags as they were given, for the report
 };

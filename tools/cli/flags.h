@@ -24,6 +24,9 @@ void add_carving_flags(CLI::App* app, Arguments& a);
 void add_reshaping_flags(CLI::App* app, Arguments& a);
 void add_region_flags(CLI::App* app, Regions& regions);
 
+/// What a print is judged by.
+void add_judging_flags(CLI::App* app, Arguments& a);
+
 /// Material, report, threads, memory, quiet: what every run has.
 void add_run_flags(CLI::App* app, Arguments& a);
 

@@ -13,7 +13,9 @@
 #include "aplomb/core/stage_clock.h"
 #include "aplomb/core/threads.h"
 #include "aplomb/io/write_mesh.h"
+#include "aplomb/printability/judge.h"
 #include "aplomb/report/json.h"
+#include "aplomb/report/judgement.h"
 #include "aplomb/report/landing_list.h"
 #include "aplomb/report/text.h"
 #include "comparison.h"
@@ -22,7 +24,7 @@
 namespace aplomb::cli {
 namespace {
 
-enum Exit { stands = 0, usage = 1, bad_input = 2, cannot_stand = 3, over_budget = 5, internal = 7 };
+enum Exit { stands = 0, usage = 1, bad_input = 2, cannot_stand = 3, over_budget = 5, does_not_print = 6, internal = 7 };
 
 int exit_code(const Error& error) {
   switch (error.code) {
@@ -168,6 +170,33 @@ int run_check(const Arguments& a, const Input& input, const StandOptions& option
   return report->outcome == Outcome::falls ? Exit::cannot_stand : Exit::stands;
 }
 
+Result<JudgeOptions> judge_options(const Arguments& a, double height_mm) {
+  JudgeOptions options{Rules(a.process), *stand_options(a.job, height_mm).poses.front().standing(), {}};
+  options.rules.layer_mm = a.layer_mm;
+  options.filling.infill_ratio = a.infill_ratio;
+  for (const auto& [id, value] : a.limits)
+    if (const auto set = options.rules.set(id, value); !set) return tl::unexpected(set.error());
+  for (const std::string& id : a.waived)
+    if (const auto waived = options.rules.waive(id); !waived) return tl::unexpected(waived.error());
+  if (std::string problem = find_problem(options); !problem.empty())
+    return fail(ErrorCode::invalid_option, std::move(problem));
+  return options;
+}
+
+int run_validate(const Arguments& a, const Job& job) {
+  const auto mesh = load_print(a.job.model, a.job.input, job.part(0, 0.1));
+  if (!mesh) return report_error(mesh.error());
+  const auto options = judge_options(a, bounding_box(*mesh).size().z);
+  if (!options) return report_error(options.error());
+  const auto judgement = judge(*mesh, *options, nullptr, job.part(0.1, 1));
+  if (!judgement) return report_error(judgement.error());
+  say(a, to_text(*judgement, a.process), true);
+  if (!a.job.report.empty())
+    if (const auto written = write_text(a.job.report, to_json(*judgement, a.process)); !written)
+      return report_error(written.error());
+  return judgement->passes() ? Exit::stands : Exit::does_not_print;
+}
+
 int list_poses(const Arguments& a, const Input& input) {
   const auto found = landings(input.solid.mesh(), input.moments, 1e-3 * input.solid.box().diagonal());
   if (!found) return report_error(found.error());
@@ -194,6 +223,7 @@ int run(const Arguments& a) {
   const ThreadLimit limit(asked.threads);
   ProgressLine progress(!a.quiet);
   const Job job = progress.job();
+  if (a.command == Command::validate) return run_validate(a, job);
   const auto input = load_solid(asked.model, asked.input, job.part(0, 0.3), dump_into(asked.dump));
   if (!input) return report_error(input.error());
   if (a.command == Command::poses) return list_poses(a, *input);

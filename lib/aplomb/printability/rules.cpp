@@ -28,6 +28,8 @@ constexpr std::array rules{
     CheckRule{"mesh.orientation", "", "shells wound the wrong way for where they lie", most, everywhere(fails(0))},
     CheckRule{"mesh.intersection", "", "pairs of triangles that cross", most, everywhere(fails(0))},
     CheckRule{"mesh.degenerate", "", "triangles without area, or twice there", most, everywhere(fails(0))},
+    CheckRule{"mesh.roundtrip", "", "relative difference between what was meant and what the file holds", most,
+              everywhere(fails(1e-6))},
     CheckRule{"wall.void_outer",
               "mm",
               "least wall between a void and the outside",
@@ -127,6 +129,11 @@ Result<void> Rules::set(std::string_view id, double value) {
     if (*milder && (rule->is_least ? **milder < value : **milder > value)) *milder = value;
   changed_.insert_or_assign(std::string(id), limits);
   return {};
+}
+
+void Rules::adopt(std::string_view id, const Limits& limits) {
+  assert(find_rule(id));
+  changed_.try_emplace(std::string(id), limits);
 }
 
 Result<void> Rules::waive(std::string_view id) {

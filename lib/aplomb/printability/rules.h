@@ -48,6 +48,8 @@ class Rules {
   /// Replaces the most severe limit of a check, or a number; what is between it and a good measure stays where it is,
   /// unless it is worse. \return invalid_option naming the ids there are, or the range.
   Result<void> set(std::string_view id, double value);
+  /// Other limits than the defaults, where set() has not been called. \pre The check is made for this process.
+  void adopt(std::string_view id, const Limits& limits);
   /// \return invalid_option naming the ids there are.
   Result<void> waive(std::string_view id);
   bool is_waived(std::string_view id) const { return waived_.count(std::string(id)) > 0; }

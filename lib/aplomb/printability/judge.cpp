@@ -1,0 +1,189 @@
+#include "aplomb/printability/judge.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+#include "aplomb/printability/mesh_checks.h"
+#include "aplomb/printability/printed_solid.h"
+#include "aplomb/printability/remedies.h"
+
+namespace aplomb {
+namespace {
+
+using Verdict = CheckResult::Verdict;
+
+/// Density of what stays in a closed void, of the printed material's: liquid resin, loose powder. Our choice.
+constexpr std::array<double, 4> trapped_ratios{0, 0.95, 0.45, 0.6};
+
+std::string figure(double value) { return fmt::format("{:.4g}", value == 0 ? 0.0 : value); }
+
+std::string with_unit(double value, const CheckRule& rule) {
+  return figure(value) + (rule.unit.empty() ? "" : " ") + std::string(rule.unit);
+}
+
+/// Collects what the checks measure and says what is wrong with it.
+class Collector {
+ public:
+  explicit Collector(const Rules& rules) : rules_(rules) {}
+
+  /// Places, worst first. No place: there was nothing to measure.
+  void add(std::string_view id, const std::vector<Place>& places) {
+    const CheckRule& rule = rule_of(id);
+    const auto limits = rules_.limits(id);
+    if (!limits) return;
+    CheckResult result;
+    result.id = id;
+    if (!places.empty()) {
+      result.has_measure = true;
+      result.measured = places.front().measured;
+      result.threshold = limits->fail.value_or(limits->warn.value_or(limits->info.value_or(0)));
+    }
+    for (const Place& place : places)
+      if (const auto severity = severity_of(place, rule, *limits)) {
+        judgement_.findings.push_back(finding(place, rule, *severity, *limits));
+        if (result.verdict == Verdict::passed) {
+          result.verdict = verdict_of(*severity, id);
+          result.threshold = judgement_.findings.back().threshold;
+        }
+      }
+    judgement_.checks.push_back(std::move(result));
+  }
+
+  void leave_out(std::string_view id, std::string why) {
+    if (!rules_.limits(id)) return;
+    judgement_.checks.push_back({std::string(id), Verdict::not_judged, false, 0, 0, std::move(why)});
+  }
+
+  /// In the order of check_rules().
+  Judgement judgement() {
+    const auto rank = [](const auto& item) {
+      return std::ranges::find(check_rules(), std::string_view(item.id), &CheckRule::id) - check_rules().begin();
+    };
+    std::ranges::stable_sort(judgement_.checks, {}, rank);
+    std::ranges::stable_sort(judgement_.findings, {}, rank);
+    return std::move(judgement_);
+  }
+
+ private:
+  static const CheckRule& rule_of(std::string_view id) {
+    const auto found = std::ranges::find(check_rules(), id, &CheckRule::id);
+    assert(found != check_rules().end());
+    return *found;
+  }
+
+  static std::optional<Severity> severity_of(const Place& place, const CheckRule& rule, const Limits& limits) {
+    const auto is_wrong = [&](const std::optional<double>& limit) {
+      return limit && (rule.is_least ? place.measured < *limit : place.measured > *limit);
+    };
+    if (is_wrong(limits.fail)) return Severity::fail;
+    if (is_wrong(limits.warn)) return Severity::warn;
+    if (is_wrong(limits.info)) return Severity::info;
+    return std::nullopt;
+  }
+
+  Verdict verdict_of(Severity severity, std::string_view id) const {
+    if (rules_.is_waived(id)) return Verdict::waived;
+    return severity == Severity::fail ? Verdict::failed : severity == Severity::warn ? Verdict::warned : Verdict::info;
+  }
+
+  static Finding finding(const Place& place, const CheckRule& rule, Severity severity, const Limits& limits) {
+    const double threshold = *(severity == Severity::fail   ? limits.fail
+                               : severity == Severity::warn ? limits.warn
+                                                            : limits.info);
+    return {std::string(rule.id),
+            severity,
+            place.measured,
+            threshold,
+            place.at_mm,
+            place.box_mm,
+            fmt::format("{}: {}; {} {}", rule.what, with_unit(place.measured, rule),
+                        rule.is_least ? "at least" : "at most", with_unit(threshold, rule)),
+            std::string(remedy_of(rule.id))};
+  }
+
+  const Rules& rules_;
+  Judgement judgement_;
+};
+
+/// The angles asked for are those of the pose, unless the rules were changed.
+Rules with_angles_of(Rules rules, const StandingPose& pose) {
+  const double asked_deg = pose.required_tip_rad * 180 / std::numbers::pi;
+  rules.adopt("stand.nominal", {{}, {}, asked_deg});
+  rules.adopt("stand.robust", {{}, asked_deg, asked_deg / 2});
+  if (rules.limits("stand.trapped")) rules.adopt("stand.trapped", {{}, {}, asked_deg});
+  return rules;
+}
+
+/// Judges what is a solid.
+class SolidJudge {
+ public:
+  SolidJudge(const SolidMesh& solid, const JudgeOptions& options, Collector& collector)
+      : printed_(printed_solid(solid)), options_(options), collector_(collector) {}
+
+  Result<void> run(const Job& job) {
+    if (!job.report(0, "judge")) return cancelled();
+    collector_.add("mass.gained", mass_gained_percent(printed_, options_.filling));
+    return stand();
+  }
+
+ private:
+  Result<void> stand() {
+    constexpr std::array ids{"stand.nominal", "stand.robust", "stand.trapped"};
+    if (!options_.pose) {
+      for (const char* id : ids) collector_.leave_out(id, "it is not meant to stand");
+      return {};
+    }
+    const double trapped_ratio = trapped_ratios[static_cast<std::size_t>(options_.rules.process())];
+    const auto measured = measure_stand(printed_, *options_.pose, trapped_ratio);
+    if (!measured) return tl::unexpected(measured.error());
+    collector_.add(ids[0], measured->nominal);
+    collector_.add(ids[1], measured->robust);
+    collector_.add(ids[2], measured->trapped);
+    return {};
+  }
+
+  PrintedSolid printed_;
+  const JudgeOptions& options_;
+  Collector& collector_;
+};
+
+}  // namespace
+
+std::string find_problem(const JudgeOptions& o) {
+  if (!(o.rules.layer_mm > 0 && o.rules.layer_mm <= 100))
+    return fmt::format("layer_mm is {}; it must lie in (0, 100]", o.rules.layer_mm);
+  if (!(o.filling.infill_ratio >= 0 && o.filling.infill_ratio <= 1))
+    return fmt::format("infill_ratio is {}; it must lie in [0, 1]", o.filling.infill_ratio);
+  if (!(o.filling.skin_mm > 0 && o.filling.skin_mm <= 100))
+    return fmt::format("skin_mm is {}; it must lie in (0, 100]", o.filling.skin_mm);
+  return o.pose ? find_problem(*o.pose) : "";
+}
+
+Result<Judgement> judge(const TriangleMesh& mesh, const JudgeOptions& options, const TriangleMesh* meant,
+                        const Job& job) {
+  assert(find_problem(options).empty());
+  const Rules rules = options.pose ? with_angles_of(options.rules, *options.pose) : options.rules;
+  Collector collector(rules);
+  const auto measured = measure_mesh(mesh, job.part(0, 0.2));
+  if (!measured) return tl::unexpected(measured.error());
+  collector.add("mesh.manifold", measured->manifold);
+  if (measured->manifold.front().measured == 0) collector.add("mesh.orientation", measured->orientation);
+  else collector.leave_out("mesh.orientation", "it is not closed");
+  collector.add("mesh.intersection", measured->intersection);
+  collector.add("mesh.degenerate", measured->degenerate);
+  if (meant) collector.add("mesh.roundtrip", {{roundtrip_error_ratio(*meant, mesh), {}, {}}});
+  if (!measured->solid) {
+    for (const CheckRule& rule : check_rules())
+      if (rule.is_check && !rule.id.starts_with("mesh.")) collector.leave_out(rule.id, "the mesh is no solid");
+    return collector.judgement();
+  }
+  if (const auto judged = SolidJudge(*measured->solid, options, collector).run(job.part(0.2, 1)); !judged)
+    return tl::unexpected(judged.error());
+  return collector.judgement();
+}
+
+}  // namespace aplomb

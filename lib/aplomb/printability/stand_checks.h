@@ -1,0 +1,35 @@
+#pragma once
+
+#include <vector>
+
+#include "aplomb/balance/standing.h"
+#include "aplomb/core/error.h"
+#include "aplomb/printability/finding.h"
+#include "aplomb/printability/printed_solid.h"
+
+namespace aplomb {
+
+/// How a solid stands while printed and after it.
+struct StandMeasures {
+  std::vector<Place> nominal;  ///< tip angle, degrees
+  std::vector<Place> robust;   ///< at the worst of the tolerances, degrees
+  std::vector<Place> trapped;  ///< with its closed voids full, degrees
+};
+
+/// \param trapped_ratio  density of what stays in closed voids, of the printed material's. \pre in [0, 10].
+/// \return as support_polygon().
+Result<StandMeasures> measure_stand(const PrintedSolid& printed, const StandingPose& pose, double trapped_ratio);
+
+/// How a slicer fills a print.
+struct Filling {
+  double infill_ratio = 1;  ///< in [0, 1]
+  double skin_mm = 1.35;    ///< what it lays solid round a void: measured with PrusaSlicer, 3 perimeters
+};
+
+/// What voids add to the printed mass, in percent of the mass without them (skinned likewise): a skin round each, less the infill that
+/// would be there (Steiner's formula for the volume within skin_mm of a void, exact for convex ones):
+///
+///     (1 - f) (A s + M s^2 + 4/3 pi s^3) - f V,     A area, M integral of the mean curvature, V volume of the void
+std::vector<Place> mass_gained_percent(const PrintedSolid& printed, const Filling& filling);
+
+}  // namespace aplomb
