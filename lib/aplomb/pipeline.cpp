@@ -133,6 +133,16 @@ void add_remedies(Report& report, const Input& input, const JointProblem& joint,
     report.hints.push_back("a larger --deform-limit or --trim-base would allow more");
 }
 
+/// The judge sees the print as it lies on the plate.
+JudgeOptions judge_options(const StandOptions& options) {
+  JudgeOptions judging = options.judge;
+  judging.pose.reset();
+  for (const Pose& pose : options.poses)
+    if (const StandingPose* standing = pose.standing(); standing && !judging.pose && standing->up == Vec3{0, 0, 1})
+      judging.pose = *standing;
+  return judging;
+}
+
 /// Says of a run what was made: of the solid alone where nothing was carved.
 Result<StandRun> finish(StandRun run, const Input& shaped, std::optional<Attempt> made, const StandOptions& options,
                         StageClock& clock, const Job& job, const StageViewer& view) {
@@ -210,6 +220,7 @@ std::string find_problem(const StandOptions& o) {
   if (std::string problem = find_problem(o.reshape); !problem.empty()) return problem;
   if (o.deform == Deform::never && !o.reshape.regions.handles.empty())
     return "deform is never, but a handle moves the outside; it must be auto or only";
+  if (std::string problem = find_problem(o.judge); !problem.empty()) return problem;
   return find_problem(CarveOptions{o.aim, 0, o.least_volume_mm3});
 }
 
@@ -267,7 +278,7 @@ Result<Report> measure_output(const TriangleMesh& written, const StandRun& run, 
   if (!(written.triangles.size() == run.shell->mesh.triangles.size()))
     return fail(ErrorCode::internal, fmt::format("the file holds {} triangles instead of {}", written.triangles.size(),
                                                  run.shell->mesh.triangles.size()));
-  const auto solid = check_solid(written, job);
+  const auto solid = check_solid(written, job.part(0, 0.4));
   if (!solid) return tl::unexpected(solid.error());
   Report report = run.report;
   MeshFigures figures = report.mesh.value_or(MeshFigures{});
@@ -284,6 +295,10 @@ Result<Report> measure_output(const TriangleMesh& written, const StandRun& run, 
   auto after = measure_poses(written, solid->solid->moments(), options);
   if (!after) return tl::unexpected(after.error());
   set_after(report, std::move(*after), kind_of(options));
+  auto judgement = judge(written, judge_options(options), &run.shell->mesh, job.part(0.4, 1));
+  if (!judgement) return tl::unexpected(judgement.error());
+  report.judgement = std::move(*judgement);
+  report.process = options.judge.rules.process();
   if (report.carving || report.deformation) report.outcome = all_hold(report) ? Outcome::stands : Outcome::best_effort;
   return report;
 }

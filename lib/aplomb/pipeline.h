@@ -12,6 +12,7 @@
 #include "aplomb/io/read_mesh.h"
 #include "aplomb/mesh/placement.h"
 #include "aplomb/mesh/repair.h"
+#include "aplomb/printability/judge.h"
 #include "aplomb/report/report.h"
 #include "aplomb/shell/shell.h"
 
@@ -71,6 +72,7 @@ struct StandOptions {
   std::size_t memory_bytes = std::size_t{4} << 30;
   double density_g_per_cm3 = 1.24;  ///< > 0; PLA
   bool best_effort = false;         ///< make the shell also when it will not stand
+  JudgeOptions judge = {};          ///< of what is written; its pose is the first that stands as it is printed
 };
 
 /// A sentence that names field, value and range; empty when there is nothing to say.
@@ -95,8 +97,8 @@ Result<StandRun> stand(const Input& input, const StandOptions& options, const Jo
 /// How a solid holds its poses as it is.
 Result<Report> check(const Input& input, const StandOptions& options, const Job& job = {});
 
-/// Completes the report of a run by measuring what was written, after reading it back: `after`, `mesh`, and the
-/// outcome that the file's own triangles bear out.
+/// Completes the report of a run by measuring what was written, after reading it back: `after`, `mesh`, `judgement`
+/// and the outcome that the file's own triangles bear out.
 ///
 /// \return internal when the file does not hold what was meant: other triangles, or a shell that is no solid.
 Result<Report> measure_output(const TriangleMesh& written, const StandRun& run, const StandOptions& options,

@@ -43,8 +43,8 @@ TEST_F(ValidateCommand, WritesEveryCheckAndFindingAsJson) {
 
 TEST_F(ValidateCommand, RefusesWhatMakesNoSense) {
   const std::string sound = "validate " + write("sound.stl", test::box({0, 0, 0}, {20, 20, 20}));
-  for (const char* flags : {" --limit wall.thin", " --limit wall.thn=1", " --waive none", " --process clay", " --layer 0",
-                            " --infill much"})
+  for (const char* flags : {" --limit wall.thin", " --limit wall.thn=1", " --waive none", " --process clay",
+                            " --layer 0", " --infill much"})
     EXPECT_EQ(run(sound + flags), 1) << flags;
   EXPECT_EQ(run("validate " + path("none.stl")), 2);
 }

@@ -116,10 +116,8 @@ TEST(Judge, TurnsItsVerdictOnMassAtTheBreakEvenOfASphere) {
       JudgeOptions options;
       options.filling.infill_ratio = f;
       const double size = 4 * radius;
-      const TriangleMesh mesh =
-          joined(cube(size), reversed(sphere({size / 2, size / 2, size / 2}, share * radius, 6)));
-      EXPECT_EQ(result_of(judged(mesh, options), "mass.gained").verdict,
-                share < 1 ? Verdict::failed : Verdict::passed)
+      const TriangleMesh mesh = joined(cube(size), reversed(sphere({size / 2, size / 2, size / 2}, share * radius, 6)));
+      EXPECT_EQ(result_of(judged(mesh, options), "mass.gained").verdict, share < 1 ? Verdict::failed : Verdict::passed)
           << f;
     }
   }

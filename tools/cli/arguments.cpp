@@ -26,7 +26,7 @@ int usage_error(const std::string& problem) {
 
 /// What `aplomb run` may change of a job.
 struct JobOverrides {
-  std::filesystem::path file, output, report, picture;
+  std::filesystem::path file, output, report, html, picture;
   std::optional<int> threads;
 };
 
@@ -34,6 +34,7 @@ void add_job_flags(CLI::App* app, JobOverrides& overrides, Arguments& a) {
   app->add_option("JOB", overrides.file, "JSON file as lib/aplomb/job/job.schema.json describes")->required();
   app->add_option("-o,--output", overrides.output, "instead of the job's; without any the poses are only checked");
   app->add_option("--report", overrides.report, "instead of the job's");
+  app->add_option("--html", overrides.html, "instead of the job's");
   app->add_option("--picture", overrides.picture, "instead of the job's");
   app->add_option("--threads", overrides.threads, "instead of the job's")->check(CLI::NonNegativeNumber);
   app->add_flag("-q,--quiet", a.quiet, "no progress and no summary");
@@ -44,6 +45,7 @@ Result<JobFile> job_of(const JobOverrides& overrides) {
   if (!job) return job;
   if (!overrides.output.empty()) job->output = overrides.output;
   if (!overrides.report.empty()) job->report = overrides.report;
+  if (!overrides.html.empty()) job->html = overrides.html;
   if (!overrides.picture.empty()) job->picture = overrides.picture;
   job->threads = overrides.threads.value_or(job->threads);
   return job;
@@ -75,12 +77,14 @@ Parsed parse_arguments(int argc, char** argv) {
     add_input_flags(sub, a);
     if (command == Command::check || command == Command::stand || command == Command::validate)
       add_standing_flags(sub, a, standing);
-    if (command == Command::validate) add_judging_flags(sub, a);
     if (command == Command::hang) add_hanging_flags(sub, hanging);
     if (command == Command::stand || command == Command::hang) {
+      add_judging_flags(sub, a);
       add_carving_flags(sub, a);
       add_reshaping_flags(sub, a);
     }
+    if (command == Command::validate) add_judging_flags(sub, a);
+    if (command != Command::poses) sub->add_option("--html", a.job.html, "write the report as a page for people");
     if (command != Command::poses && command != Command::validate)
       sub->add_option("--picture", a.job.picture, "draw it before and after, and cut open, as PNG");
     add_run_flags(sub, a);

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "aplomb/job/job_file.h"
-#include "aplomb/printability/rules.h"
 
 namespace aplomb::cli {
 
@@ -25,11 +24,6 @@ struct Arguments {
   Command command = Command::check;
   JobFile job;                     ///< without an output the poses are only checked
   std::filesystem::path save_job;  ///< where to write `job`; empty: nowhere
-  Process process = Process::fdm;  ///< of validate
-  std::vector<std::pair<std::string, double>> limits;
-  std::vector<std::string> waived;
-  double layer_mm = 0.2;
-  double infill_ratio = 1;
   bool quiet = false;
   std::vector<std::pair<std::string, std::string>> given;  ///< flags as they were given, for the report
 };

@@ -69,11 +69,6 @@ void add_carving_flags(CLI::App* app, Arguments& a) {
   add_choice(
       app, "--aim", {"least", "light", "stable"}, [&options](const std::string& name) { options.aim = aims.at(name); },
       "least: remove least; light: remove most; stable: the largest angle (default least)");
-  add_choice(
-      app, "--process", {"fdm", "sla", "powder", "binder"},
-      [&options](const std::string& name) { options.wall_mm = *wall_of_process(name); },
-      "fdm (wall 1.6mm), sla (2mm), powder (1.5mm) or binder (3mm); --wall overrides (default fdm)")
-      ->trigger_on_parse();
   add_quantity(app, "--wall", options.wall_mm, lengths, "least wall between void and outside (default: the process's)");
   add_quantity(app, "--voxel", options.voxel_mm, lengths, "grid spacing (default: 4 in a wall, 256 on the diagonal)");
   add_quantity(app, "--least-void", options.least_void_mm, lengths, "no void narrower than this (default 1mm)");

@@ -20,6 +20,7 @@
 #include "aplomb/report/text.h"
 #include "comparison.h"
 #include "interrupt.h"
+#include "page.h"
 
 namespace aplomb::cli {
 namespace {
@@ -141,6 +142,28 @@ Result<void> draw(const Arguments& a, const Input& input, const StandRun* made, 
   return write_file_atomically(a.job.picture, *bytes, remember_temp_file);
 }
 
+/// Writes the page where one is asked for.
+Result<void> write_page(const Arguments& a, const page::PageContent& content, const Job& job) {
+  if (a.job.html.empty()) return {};
+  const auto html = page::html_page(content, job);
+  if (!html) return tl::unexpected(html.error());
+  return write_text(a.job.html, *html);
+}
+
+/// The page of a run that has a report.
+Result<void> write_page(const Arguments& a, const Report& report, const Input& input, const StandRun* made,
+                        const StandOptions& options, const Job& job) {
+  page::PageContent content{
+      .title = a.job.model.filename().string(), .before = &input.solid.mesh(), .poses = options.poses};
+  if (made && made->shell) content.after = &made->shell->mesh;
+  content.report = report;
+  content.judgement = report.judgement;
+  content.process = report.process;
+  content.required_tip_rad = report.required_tip_rad;
+  if (report.has_standing_pose()) content.standing = report.after ? *report.after : report.before;
+  return write_page(a, content, job);
+}
+
 int run_stand(const Arguments& a, const Input& input, const StandOptions& options, const Job& job) {
   auto made = stand(input, options, job.part(0, 0.8), dump_into(a.job.dump));
   if (!made) return report_error(made.error());
@@ -155,8 +178,10 @@ int run_stand(const Arguments& a, const Input& input, const StandOptions& option
     report = std::move(*measured);
     report.stage_seconds = std::move(seconds);
   }
-  if (const auto drawn = draw(a, input, writes ? &*made : nullptr, options.poses, job.part(0.9, 1)); !drawn)
+  if (const auto drawn = draw(a, input, writes ? &*made : nullptr, options.poses, job.part(0.9, 0.95)); !drawn)
     return report_error(drawn.error());
+  if (const auto paged = write_page(a, report, input, writes ? &*made : nullptr, options, job.part(0.95, 1)); !paged)
+    return report_error(paged.error());
   if (const auto published = publish(report, a); !published) return report_error(published.error());
   return report.outcome == Outcome::best_effort ? Exit::cannot_stand : Exit::stands;
 }
@@ -164,36 +189,41 @@ int run_stand(const Arguments& a, const Input& input, const StandOptions& option
 int run_check(const Arguments& a, const Input& input, const StandOptions& options, const Job& job) {
   auto report = check(input, options, job.part(0, 0.5));
   if (!report) return report_error(report.error());
-  if (const auto drawn = draw(a, input, nullptr, options.poses, job.part(0.5, 1)); !drawn)
+  if (const auto drawn = draw(a, input, nullptr, options.poses, job.part(0.5, 0.8)); !drawn)
     return report_error(drawn.error());
+  if (const auto paged = write_page(a, *report, input, nullptr, options, job.part(0.8, 1)); !paged)
+    return report_error(paged.error());
   if (const auto published = publish(*report, a); !published) return report_error(published.error());
   return report->outcome == Outcome::falls ? Exit::cannot_stand : Exit::stands;
 }
 
-Result<JudgeOptions> judge_options(const Arguments& a, double height_mm) {
-  JudgeOptions options{Rules(a.process), *stand_options(a.job, height_mm).poses.front().standing(), {}};
-  options.rules.layer_mm = a.layer_mm;
-  options.filling.infill_ratio = a.infill_ratio;
-  for (const auto& [id, value] : a.limits)
-    if (const auto set = options.rules.set(id, value); !set) return tl::unexpected(set.error());
-  for (const std::string& id : a.waived)
-    if (const auto waived = options.rules.waive(id); !waived) return tl::unexpected(waived.error());
-  if (std::string problem = find_problem(options); !problem.empty())
-    return fail(ErrorCode::invalid_option, std::move(problem));
-  return options;
+/// How the judged mesh stands, for the page; nothing where that cannot be measured.
+std::optional<Standing> standing_of(const TriangleMesh& mesh, const std::optional<StandingPose>& pose) {
+  const Region body{moments(mesh), 1, 0};
+  if (!pose || !(body.moments.volume_mm3 > 0)) return std::nullopt;
+  auto standing = measure_standing(mesh, {&body, 1}, *pose);
+  return standing ? std::optional(std::move(*standing)) : std::nullopt;
 }
 
 int run_validate(const Arguments& a, const Job& job) {
   const auto mesh = load_print(a.job.model, a.job.input, job.part(0, 0.1));
   if (!mesh) return report_error(mesh.error());
-  const auto options = judge_options(a, bounding_box(*mesh).size().z);
-  if (!options) return report_error(options.error());
-  const auto judgement = judge(*mesh, *options, nullptr, job.part(0.1, 1));
+  const StandOptions options = stand_options(a.job, bounding_box(*mesh).size().z);
+  JudgeOptions judging = options.judge;
+  judging.pose = *options.poses.front().standing();
+  const auto judgement = judge(*mesh, judging, nullptr, job.part(0.1, a.job.html.empty() ? 1 : 0.7));
   if (!judgement) return report_error(judgement.error());
-  say(a, to_text(*judgement, a.process), true);
+  const Process process = judging.rules.process();
+  say(a, to_text(*judgement, process), true);
   if (!a.job.report.empty())
-    if (const auto written = write_text(a.job.report, to_json(*judgement, a.process)); !written)
+    if (const auto written = write_text(a.job.report, to_json(*judgement, process)); !written)
       return report_error(written.error());
+  page::PageContent content{.title = a.job.model.filename().string(), .after = &*mesh, .poses = options.poses};
+  content.judgement = *judgement;
+  content.process = process;
+  content.standing = standing_of(*mesh, judging.pose);
+  content.required_tip_rad = judging.pose->required_tip_rad;
+  if (const auto written = write_page(a, content, job.part(0.7, 1)); !written) return report_error(written.error());
   return judgement->passes() ? Exit::stands : Exit::does_not_print;
 }
 

@@ -20,10 +20,10 @@ constexpr std::array<const char*, 6> up_names{"x", "y", "z", "-x", "-y", "-z"}; 
 constexpr std::array<const char*, 3> aim_names{"least", "light", "stable"};      // in CarveAim's order
 constexpr std::array<const char*, 3> deform_names{"never", "auto", "only"};      // in Deform's order
 
-template <std::size_t N>
-std::size_t index_of(const std::array<const char*, N>& names, const std::string& name) {
+template <class Names>
+std::size_t index_of(const Names& names, const std::string& name) {
   std::size_t i = 0;
-  while (i + 1 < N && name != names[i]) ++i;
+  while (i + 1 < names.size() && name != names[i]) ++i;
   return i;
 }
 
@@ -77,8 +77,8 @@ class Reader {
   void up(const char* key, std::optional<UpAxis>& field) const {
     if (const auto at = json_.find(key); at != json_.end()) field = up_axis_named(at->get<std::string>());
   }
-  template <class Enum, std::size_t N>
-  void name(const char* key, const std::array<const char*, N>& names, Enum& field) const {
+  template <class Enum, class Names>
+  void name(const char* key, const Names& names, Enum& field) const {
     if (const auto at = json_.find(key); at != json_.end())
       field = static_cast<Enum>(index_of(names, at->get<std::string>()));
   }
@@ -97,6 +97,7 @@ class Reader {
     if (const auto at = json_.find(key); at != json_.end())
       for (const Json& point : *at) field.push_back(vec_of(point));
   }
+  void words(const char* key, std::vector<std::string>& field) const { value(key, field); }
   template <class Item, class Visit>
   void list(const char* key, std::vector<Item>& field, const Visit& visit) const {
     if (const auto at = json_.find(key); at != json_.end())
@@ -157,8 +158,8 @@ class Writer {
   void up(const char* key, std::optional<UpAxis> field) const {
     if (field) json_[key] = up_names[static_cast<std::size_t>(*field)];
   }
-  template <class Enum, std::size_t N>
-  void name(const char* key, const std::array<const char*, N>& names, Enum field) const {
+  template <class Enum, class Names>
+  void name(const char* key, const Names& names, Enum field) const {
     json_[key] = names[static_cast<std::size_t>(field)];
   }
   void memory(const char* key, std::size_t field_bytes) const { json_[key] = static_cast<double>(field_bytes) / 1e6; }
@@ -170,6 +171,9 @@ class Writer {
   void points(const char* key, const std::vector<Vec3>& field) const {
     json_[key] = Json::array();
     for (const Vec3& point : field) json_[key].push_back(json_of(point));
+  }
+  void words(const char* key, const std::vector<std::string>& field) const {
+    if (!field.empty()) json_[key] = field;
   }
   template <class Item, class Visit>
   void list(const char* key, std::vector<Item>& field, const Visit& visit) const {
@@ -253,6 +257,7 @@ void visit_job(const Visitor& v, JobFile& job) {
   v.path("output", job.output);
   v.path("report", job.report);
   v.path("dump", job.dump);
+  v.path("html", job.html);
   v.path("picture", job.picture);
   v.group("place", [&](const Visitor& place) {
     place.value("object", job.input.object);
@@ -270,6 +275,7 @@ void visit_job(const Visitor& v, JobFile& job) {
   v.value("deform_limit_percent", job.options.reshape.most_mean_percent);
   v.value("trim_base_mm", job.options.reshape.most_trim_mm);
   visit_regions(v, job.options.reshape.regions);
+  v.name("process", process_names, job.rules.process);
   v.preset("process", job.options.wall_mm, wall_of_process);
   v.value("wall_mm", job.options.wall_mm);
   v.value("voxel_mm", job.options.voxel_mm);
@@ -280,6 +286,13 @@ void visit_job(const Visitor& v, JobFile& job) {
   v.value("density_g_per_cm3", job.options.density_g_per_cm3);
   v.memory("memory_mb", job.options.memory_bytes);
   v.value("threads", job.threads);
+  v.value("layer_mm", job.rules.layer_mm);
+  v.value("infill_percent", job.infill_percent);
+  v.list("limits", job.rules.limits, [](const Visitor& l, RuleLimit& limit) {
+    l.value("check", limit.id);
+    l.value("limit", limit.value);
+  });
+  v.words("waive", job.rules.waived);
 }
 
 }  // namespace

@@ -27,14 +27,21 @@ struct JobFile {
   std::filesystem::path output;   ///< empty: the poses are only checked
   std::filesystem::path report;   ///< empty: none
   std::filesystem::path dump;     ///< empty: none
+  std::filesystem::path html;     ///< empty: none
   std::filesystem::path picture;  ///< empty: none
   InputOptions input;
   std::vector<JobPose> poses{JobPose{}};
   StandOptions options;  ///< all but the poses: see stand_options()
   int threads = 0;       ///< 0: one per core
+  RuleChanges rules;     ///< what the print is judged by
+  double infill_percent = 100;
 };
 
-/// The options of the run, its poses with their contacts, whose default radius depends on the model's height.
+/// The rules and the filling of the run. \return as rules_of(); invalid_option as find_problem() says it.
+Result<JudgeOptions> judge_options(const JobFile& job);
+
+/// The options of the run, its judge's too where its rules are sound, its poses with their contacts, whose default
+/// radius depends on the model's height.
 StandOptions stand_options(const JobFile& job, double height_mm);
 
 /// A sentence that names field, value and range; empty when there is nothing to say.

@@ -38,8 +38,18 @@ std::optional<double> wall_of_process(std::string_view name) {
   return value_named(walls, name);
 }
 
+Result<JudgeOptions> judge_options(const JobFile& job) {
+  auto rules = rules_of(job.rules);
+  if (!rules) return tl::unexpected(rules.error());
+  JudgeOptions options{std::move(*rules), {}, {.infill_ratio = job.infill_percent / 100}};
+  if (std::string problem = find_problem(options); !problem.empty())
+    return fail(ErrorCode::invalid_option, std::move(problem));
+  return options;
+}
+
 StandOptions stand_options(const JobFile& job, double height_mm) {
   StandOptions options = without_contacts(job);
+  if (auto judging = judge_options(job)) options.judge = std::move(*judging);
   for (std::size_t i = 0; i < job.poses.size(); ++i)
     if (auto* standing = std::get_if<StandingPose>(&options.poses[i].way))
       for (const JobContact& contact : job.poses[i].contacts)
@@ -51,6 +61,7 @@ std::string find_problem(const JobFile& job) {
   for (std::string problem : {find_problem(job.input.placement), find_problem(job.input.repair),
                               find_problem(job.input.read), find_problem(stand_options(job, 1))})
     if (!problem.empty()) return problem;
+  if (const auto judging = judge_options(job); !judging) return judging.error().message;
   if (job.threads < 0) return fmt::format("threads is {}; it must be at least 0", job.threads);
   return {};
 }

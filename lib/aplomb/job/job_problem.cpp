@@ -12,7 +12,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// A value and the part of the schema that speaks of it.
-struct Place {
+struct JobPlace {
   std::string name;  ///< "poses[0].stand"
   const Json* value = nullptr;
   const Json* schema = nullptr;
@@ -29,8 +29,8 @@ const Json* child_schema(const Json& root, const Json& schema, const std::string
 }
 
 /// Follows the path as far as the schema speaks of single values.
-Place place_of(const Json& root, const Json& document, const std::vector<std::string>& path) {
-  Place place{"", &document, &root};
+JobPlace place_of(const Json& root, const Json& document, const std::vector<std::string>& path) {
+  JobPlace place{"", &document, &root};
   for (const std::string& step : path) {
     const bool is_index = place.value->is_array();
     const Json* schema = child_schema(root, *place.schema, step, is_index);
@@ -94,7 +94,7 @@ std::string allowed_by(const Json& schema) {
   return kind + (about.empty() ? "" : ": " + about);
 }
 
-std::string problem_of_object(const Place& place) {
+std::string problem_of_object(const JobPlace& place) {
   const std::string name = place.name.empty() ? "the job" : place.name;
   const Json& allowed = (*place.schema)["properties"];
   Json keys = Json::array();
@@ -115,7 +115,7 @@ std::string find_schema_problem(std::string_view text) {
   const auto violation = adapters::find_violation(job_schema(), text);
   if (!violation) return {};
   const Json root = Json::parse(job_schema()), document = Json::parse(text);
-  const Place place = place_of(root, document, violation->path);
+  const JobPlace place = place_of(root, document, violation->path);
   if (place.value->is_object() && place.schema->contains("properties")) return problem_of_object(place);
   std::string value = place.value->dump(-1, ' ', false, Json::error_handler_t::replace);
   if (value.size() > 60) value = value.substr(0, 57) + "...";

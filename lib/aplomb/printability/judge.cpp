@@ -153,6 +153,16 @@ class SolidJudge {
 
 }  // namespace
 
+Result<Rules> rules_of(const RuleChanges& changes) {
+  Rules rules(changes.process);
+  rules.layer_mm = changes.layer_mm;
+  for (const RuleLimit& limit : changes.limits)
+    if (const auto set = rules.set(limit.id, limit.value); !set) return tl::unexpected(set.error());
+  for (const std::string& id : changes.waived)
+    if (const auto waived = rules.waive(id); !waived) return tl::unexpected(waived.error());
+  return rules;
+}
+
 std::string find_problem(const JudgeOptions& o) {
   if (!(o.rules.layer_mm > 0 && o.rules.layer_mm <= 100))
     return fmt::format("layer_mm is {}; it must lie in (0, 100]", o.rules.layer_mm);

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "aplomb/balance/pose.h"
 #include "aplomb/core/error.h"
@@ -10,6 +12,22 @@
 #include "aplomb/printability/stand_checks.h"
 
 namespace aplomb {
+
+struct RuleLimit {
+  std::string id;
+  double value = 0;
+};
+
+/// What a user changes of a process's rules.
+struct RuleChanges {
+  Process process = Process::fdm;
+  std::vector<RuleLimit> limits{};
+  std::vector<std::string> waived{};  ///< ids
+  double layer_mm = 0.2;
+};
+
+/// \return invalid_option as Rules::set() and Rules::waive().
+Result<Rules> rules_of(const RuleChanges& changes);
 
 struct JudgeOptions {
   Rules rules{Process::fdm};

@@ -30,13 +30,12 @@ class Spot {
 };
 
 void find_bad_edges(const TriangleMesh& mesh, Spot& spot) {
-  detail::EdgeTable(mesh).for_each(
-      [&](std::uint32_t low, std::uint32_t high, std::span<const detail::Corner> corners) {
-        const auto is_up = [&](std::size_t n) { return detail::vertex_at(mesh, corners[n]) == low; };
-        if (corners.size() == 2 && is_up(0) != is_up(1)) return;
-        spot.add(mesh.vertices[low]);
-        spot.add(mesh.vertices[high]);
-      });
+  detail::EdgeTable(mesh).for_each([&](std::uint32_t low, std::uint32_t high, std::span<const detail::Corner> corners) {
+    const auto is_up = [&](std::size_t n) { return detail::vertex_at(mesh, corners[n]) == low; };
+    if (corners.size() == 2 && is_up(0) != is_up(1)) return;
+    spot.add(mesh.vertices[low]);
+    spot.add(mesh.vertices[high]);
+  });
 }
 
 std::vector<bool> find_degenerate(const TriangleMesh& mesh, Spot& spot) {

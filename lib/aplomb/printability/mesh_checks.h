@@ -18,7 +18,7 @@ struct MeshMeasures {
   std::vector<Place> intersection;  ///< pairs of triangles
   std::vector<Place> degenerate;    ///< triangles
 
-  std::optional<SolidMesh> solid;   ///< where nothing is wrong
+  std::optional<SolidMesh> solid;  ///< where nothing is wrong
 };
 
 /// \return unusable_input for a mesh without triangles; cancelled. \par Cost  twice that of check_solid() at most.

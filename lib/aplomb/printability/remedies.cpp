@@ -10,7 +10,8 @@ namespace {
 
 constexpr std::array<std::pair<std::string_view, std::string_view>, 23> remedies{{
     {"mesh.manifold", "repair the mesh: `aplomb stand` does, and says what it decided"},
-    {"mesh.orientation", "turn the shells round that are wound the wrong way: slicers fill a void that is wound like its outside"},
+    {"mesh.orientation",
+     "turn the shells round that are wound the wrong way: slicers fill a void that is wound like its outside"},
     {"mesh.intersection", "unite the parts that cross, or repair the mesh"},
     {"mesh.degenerate", "merge or remove the triangles that have no area"},
     {"mesh.roundtrip", "write another format; coordinates are rounded to float32"},
@@ -28,7 +29,8 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 23> remedies
     {"stand.nominal", "carve it: `aplomb stand`; or give it a wider base"},
     {"stand.robust", "ask `aplomb stand --robust`, or for a larger --tip"},
     {"stand.trapped", "cut escape holes, so that nothing stays in the voids"},
-    {"mass.gained", "print with more infill, or leave the void out: skins round it weigh more than the infill it saves"},
+    {"mass.gained",
+     "print with more infill, or leave the void out: skins round it weigh more than the infill it saves"},
     {"strength.ankle", "make the weakest section thicker, or print it in another material or direction"},
     {"bed.contact", "print with a brim or raft"},
     {"print.stands", "print with a brim, raft or supports, or lay it another way"},

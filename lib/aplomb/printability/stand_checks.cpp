@@ -13,8 +13,7 @@ constexpr double degree = std::numbers::pi / 180;
 constexpr double print_error_ratio = 0.02, trapped_error_ratio = 0.05;  // of densities
 
 Vec3 normal_of(const TriangleMesh& mesh, const Triangle& t) {
-  return normalized(
-      cross(mesh.vertices[t[1]] - mesh.vertices[t[0]], mesh.vertices[t[2]] - mesh.vertices[t[0]]));
+  return normalized(cross(mesh.vertices[t[1]] - mesh.vertices[t[0]], mesh.vertices[t[2]] - mesh.vertices[t[0]]));
 }
 
 double area_mm2(const TriangleMesh& mesh) {
@@ -67,7 +66,8 @@ std::vector<Place> mass_gained_percent(const PrintedSolid& printed, const Fillin
   double gained = 0;
   for (const TriangleMesh& inner : printed.voids) {
     const TriangleMesh outward = reversed(inner);
-    const double skin = area_mm2(outward) * s + mean_curvature_mm(outward) * s * s + 4.0 / 3 * std::numbers::pi * s * s * s;
+    const double skin =
+        area_mm2(outward) * s + mean_curvature_mm(outward) * s * s + 4.0 / 3 * std::numbers::pi * s * s * s;
     gained += (1 - f) * skin - f * moments(outward).volume_mm3;
   }
   return {{100 * gained / whole, {}, {}}};

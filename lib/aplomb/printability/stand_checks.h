@@ -26,8 +26,8 @@ struct Filling {
   double skin_mm = 1.35;    ///< what it lays solid round a void: measured with PrusaSlicer, 3 perimeters
 };
 
-/// What voids add to the printed mass, in percent of the mass without them (skinned likewise): a skin round each, less the infill that
-/// would be there (Steiner's formula for the volume within skin_mm of a void, exact for convex ones):
+/// What voids add to the printed mass, in percent of the mass without them (skinned likewise): a skin round each, less
+/// the infill that would be there (Steiner's formula for the volume within skin_mm of a void, exact for convex ones):
 ///
 ///     (1 - f) (A s + M s^2 + 4/3 pi s^3) - f V,     A area, M integral of the mean curvature, V volume of the void
 std::vector<Place> mass_gained_percent(const PrintedSolid& printed, const Filling& filling);

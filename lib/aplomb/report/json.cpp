@@ -1,5 +1,7 @@
 #include "aplomb/report/json.h"
 
+#include "aplomb/report/judgement.h"
+
 #include <array>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -134,6 +136,7 @@ std::string to_json(const Report& report) {
   if (report.deformation) object["deformation"] = json(*report.deformation);
   if (report.wall) object["wall_mm"] = {{"required", report.wall->required_mm}, {"measured", report.wall->measured_mm}};
   if (report.mesh) object["mesh"] = json(*report.mesh);
+  if (report.judgement) object["judgement"] = Json::parse(to_json(*report.judgement, report.process));
   object["repair"] = report.repair;
   object["hints"] = report.hints;
   object["seconds"] = Json::object();

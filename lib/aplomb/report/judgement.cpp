@@ -41,8 +41,8 @@ std::string headline(const Judgement& judgement, Process process) {
   const std::string warnings = fmt::format("{} {}", warned, warned == 1 ? "warning" : "warnings");
   const std::string_view name = process_names[static_cast<std::size_t>(process)];
   if (failed == 0) return fmt::format("Prints ({}): no check fails, {}\n", name, warnings);
-  return fmt::format("Will not print as it is ({}): {} {}, {}\n", name, failed, failed == 1 ? "check fails" : "checks fail",
-                     warnings);
+  return fmt::format("Will not print as it is ({}): {} {}, {}\n", name, failed,
+                     failed == 1 ? "check fails" : "checks fail", warnings);
 }
 
 std::string place_of(const Finding& finding) {

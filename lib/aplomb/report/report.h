@@ -9,6 +9,8 @@
 
 #include "aplomb/balance/poses.h"
 #include "aplomb/core/stage_clock.h"
+#include "aplomb/printability/finding.h"
+#include "aplomb/printability/rules.h"
 
 namespace aplomb {
 
@@ -86,8 +88,10 @@ struct Report {
   std::optional<DeformationFigures> deformation;
   std::optional<WallFigures> wall;
   std::optional<MeshFigures> mesh;
-  std::vector<std::string> repair;  ///< what was wrong with the input and what was decided, a sentence each
-  std::vector<std::string> hints;   ///< what looks like a mistake, or what would help, a sentence each
+  std::optional<Judgement> judgement;  ///< of what was written
+  Process process = Process::fdm;      ///< that it was judged for
+  std::vector<std::string> repair;     ///< what was wrong with the input and what was decided, a sentence each
+  std::vector<std::string> hints;      ///< what looks like a mistake, or what would help, a sentence each
   StageSeconds stage_seconds;
   double peak_memory_mb = 0;
   std::vector<std::pair<std::string, std::variant<bool, double, std::string>>> options;
