@@ -58,7 +58,8 @@ TEST(Page, SaysTheVerdictFirstAndEveryCheckOnce) {
   PageContent content{.title = "a <column>", .after = &box, .poses = {Pose{}}};
   content.judgement = judge(box, {}).value();
   const std::string html = html_page(content).value();
-  EXPECT_NE(html.find("<h1>Will not print as it is (fdm)</h1>\n<p class=\"model\">a &lt;column&gt;"), std::string::npos);
+  EXPECT_NE(html.find("<h1>Will not print as it is (fdm)</h1>\n<p class=\"model\">a &lt;column&gt;"),
+            std::string::npos);
   for (const CheckResult& check : content.judgement->checks)
     EXPECT_NE(html.find("<tr><td>" + check.id + "</td>"), std::string::npos) << check.id;
   EXPECT_EQ(html.find("<script"), std::string::npos);

@@ -51,6 +51,24 @@ Result<JobFile> job_of(const JobOverrides& overrides) {
   return job;
 }
 
+/// The flags of every command but `run`.
+void add_flags(Command command, CLI::App* app, Arguments& a, StandingPose& standing, HangingPose& hanging) {
+  const bool carves = command == Command::stand || command == Command::hang;
+  const bool judges = carves || command == Command::validate;
+  add_input_flags(app, a);
+  if (command == Command::hang) add_hanging_flags(app, hanging);
+  else if (command != Command::poses) add_standing_flags(app, a, standing);
+  if (judges) add_judging_flags(app, a);
+  if (carves) {
+    add_carving_flags(app, a);
+    add_reshaping_flags(app, a);
+  }
+  if (command != Command::poses) app->add_option("--html", a.job.html, "write the report as a page for people");
+  if (carves || command == Command::check)
+    app->add_option("--picture", a.job.picture, "draw it before and after, and cut open, as PNG");
+  add_run_flags(app, a);
+}
+
 }  // namespace
 
 Parsed parse_arguments(int argc, char** argv) {
@@ -69,26 +87,9 @@ Parsed parse_arguments(int argc, char** argv) {
       {Command::poses, app.add_subcommand("poses", "list the ways a model can rest, and how likely each is")},
       {Command::validate, app.add_subcommand("validate", "judge whether a mesh prints, as it is")},
       {Command::run, app.add_subcommand("run", "run a job file")}};
-  for (const auto& [command, sub] : commands) {
-    if (command == Command::run) {
-      add_job_flags(sub, overrides, a);
-      continue;
-    }
-    add_input_flags(sub, a);
-    if (command == Command::check || command == Command::stand || command == Command::validate)
-      add_standing_flags(sub, a, standing);
-    if (command == Command::hang) add_hanging_flags(sub, hanging);
-    if (command == Command::stand || command == Command::hang) {
-      add_judging_flags(sub, a);
-      add_carving_flags(sub, a);
-      add_reshaping_flags(sub, a);
-    }
-    if (command == Command::validate) add_judging_flags(sub, a);
-    if (command != Command::poses) sub->add_option("--html", a.job.html, "write the report as a page for people");
-    if (command != Command::poses && command != Command::validate)
-      sub->add_option("--picture", a.job.picture, "draw it before and after, and cut open, as PNG");
-    add_run_flags(sub, a);
-  }
+  for (const auto& [command, sub] : commands)
+    if (command == Command::run) add_job_flags(sub, overrides, a);
+    else add_flags(command, sub, a, standing, hanging);
   app.footer(
       "Exit: 0 stands, or prints; 1 usage; 2 input unusable; 3 cannot stand; 4 cancelled; 5 over budget; 6 does not "
       "print; 7 internal.");

@@ -8,7 +8,8 @@
 /// Diagrams of how a figure stands, as SVG with the page's colours (its classes are in page.cpp).
 namespace aplomb::page {
 
-/// The part of a convex polygon, counter-clockwise, that is at least distance_mm inside each of its edges; may be empty.
+/// The part of a convex polygon, counter-clockwise, that is at least distance_mm inside each of its edges; may be
+/// empty.
 std::vector<Vec2> inset(const std::vector<Vec2>& polygon_mm, double distance_mm);
 
 /// The tip angle over an edge of the support polygon when the table leans towards a direction of the plate: the tilt

@@ -61,16 +61,17 @@ std::string headline(const PageContent& content) {
 }
 
 Result<std::string> pictures(const PageContent& content, const Job& job) {
-  const auto image = content.before && content.after
-                         ? picture::before_and_after(*content.before, *content.after, content.poses, picture_size, job)
-                         : picture::as_it_is(content.after ? *content.after : *content.before, content.poses,
-                                             picture_size, job);
+  const auto image =
+      content.before && content.after
+          ? picture::before_and_after(*content.before, *content.after, content.poses, picture_size, job)
+          : picture::as_it_is(content.after ? *content.after : *content.before, content.poses, picture_size, job);
   if (!image) return tl::unexpected(image.error());
   const auto png = picture::encode_png(*image);
   if (!png) return tl::unexpected(png.error());
-  return fmt::format("<figure><img alt=\"The model, cut open and whole, with its centre of mass and support polygon\" "
-                     "src=\"data:image/png;base64,{}\"></figure>\n",
-                     base64(*png));
+  return fmt::format(
+      "<figure><img alt=\"The model, cut open and whole, with its centre of mass and support polygon\" "
+      "src=\"data:image/png;base64,{}\"></figure>\n",
+      base64(*png));
 }
 
 std::string diagrams(const PageContent& content) {
@@ -89,11 +90,10 @@ std::string findings(const Judgement& judgement) {
   if (judgement.findings.empty()) return "";
   std::string rows;
   for (const Finding& f : judgement.findings) {
-    const auto place = f.box_mm.empty()
-                           ? std::string("whole model")
-                           : fmt::format("({:.1f}, {:.1f}, {:.1f}) mm", f.at_mm.x, f.at_mm.y, f.at_mm.z);
-    rows += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", escaped(f.id), escaped(f.text), place,
-                        escaped(f.remedy));
+    const auto place = f.box_mm.empty() ? std::string("whole model")
+                                        : fmt::format("({:.1f}, {:.1f}, {:.1f}) mm", f.at_mm.x, f.at_mm.y, f.at_mm.z);
+    rows += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", escaped(f.id), escaped(f.text),
+                        place, escaped(f.remedy));
   }
   return "<h2>What is in the way</h2>\n<table><thead><tr><th>check</th><th>found</th><th>where</th><th>what "
          "helps</th></tr></thead><tbody>\n" +
@@ -105,11 +105,12 @@ std::string checks(const Judgement& judgement) {
   for (const CheckResult& c : judgement.checks) {
     const CheckRule* rule = rule_of(c.id);
     if (!rule) continue;
-    rows += fmt::format("<tr><td>{}</td><td>{}{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"{}\">{}</td></tr>\n",
-                        escaped(c.id), escaped(std::string(rule->what)), c.why.empty() ? "" : ": " + escaped(c.why),
-                        c.has_measure ? measure(c.measured, *rule) : "",
-                        c.has_measure ? fmt::format("{} {}", rule->is_least ? "≥" : "≤", measure(c.threshold, *rule)) : "",
-                        class_of(c.verdict), word_of(c.verdict));
+    rows += fmt::format(
+        "<tr><td>{}</td><td>{}{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"{}\">{}</td></tr>\n",
+        escaped(c.id), escaped(std::string(rule->what)), c.why.empty() ? "" : ": " + escaped(c.why),
+        c.has_measure ? measure(c.measured, *rule) : "",
+        c.has_measure ? fmt::format("{} {}", rule->is_least ? "≥" : "≤", measure(c.threshold, *rule)) : "",
+        class_of(c.verdict), word_of(c.verdict));
   }
   return "<h2>Checks</h2>\n<table><thead><tr><th>check</th><th>what is measured</th><th>measured</th><th>limit</th>"
          "<th>verdict</th></tr></thead><tbody>\n" +
@@ -121,16 +122,19 @@ std::string checks(const Judgement& judgement) {
 Result<std::string> html_page(const PageContent& content, const Job& job) {
   assert(content.before || content.after);
   const auto shown = pictures(content, job);
-  if (!shown) return shown;
+  if (!shown) return tl::unexpected(shown.error());
   const std::string title = escaped(content.title), said = escaped(headline(content));
-  std::string body = fmt::format("<h1>{}</h1>\n<p class=\"model\">{}</p>\n{}{}", said, title, *shown, diagrams(content));
+  std::string body =
+      fmt::format("<h1>{}</h1>\n<p class=\"model\">{}</p>\n{}{}", said, title, *shown, diagrams(content));
   if (content.judgement) body += findings(*content.judgement) + checks(*content.judgement);
   if (content.report)
     body += fmt::format("<h2>Before and after, in numbers</h2>\n<pre>{}</pre>\n", escaped(to_text(*content.report)));
   return fmt::format(
       "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
-      "content=\"width=device-width\"><meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src "
-      "data:; style-src 'unsafe-inline'\">\n<title>{}: {}</title>\n<style>{}</style></head>\n<body>\n{}</body></html>\n",
+      "content=\"width=device-width\"><meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
+      "img-src "
+      "data:; style-src 'unsafe-inline'\">\n<title>{}: "
+      "{}</title>\n<style>{}</style></head>\n<body>\n{}</body></html>\n",
       title, said, style, body);
 }
 
@@ -142,8 +146,7 @@ std::string base64(const std::vector<std::byte>& bytes) {
     unsigned group = 0;
     for (std::size_t k = 0; k < 3; ++k)
       group = group << 8 | (i + k < bytes.size() ? std::to_integer<unsigned>(bytes[i + k]) : 0U);
-    for (std::size_t k = 0; k < 4; ++k)
-      text += i + k > bytes.size() ? '=' : letters[group >> (18 - 6 * k) & 63U];
+    for (std::size_t k = 0; k < 4; ++k) text += i + k > bytes.size() ? '=' : letters[group >> (18 - 6 * k) & 63U];
   }
   return text;
 }

@@ -9,19 +9,19 @@
 #include "aplomb/printability/rules.h"
 #include "aplomb/report/report.h"
 
-/// A run's report as one HTML page for people: the verdict first, pictures, diagrams, checks, before and after. It holds
-/// everything it needs, opens without a network, and is readable in light and dark and without colours.
+/// A run's report as one HTML page for people: the verdict first, pictures, diagrams, checks, before and after. It
+/// holds everything it needs, opens without a network, and is readable in light and dark and without colours.
 namespace aplomb::page {
 
 struct PageContent {
-  std::string title;                            ///< the model's name
-  const TriangleMesh* before = nullptr;         ///< what came; none: only `after` is shown
-  const TriangleMesh* after = nullptr;          ///< what was judged or written; none: only `before` is shown
-  std::vector<Pose> poses{};                    ///< how it is shown; one or more
-  std::optional<Report> report{};               ///< of check and stand
-  std::optional<Judgement> judgement{};         ///< of validate and stand
-  Process process = Process::fdm;               ///< that it was judged for
-  std::optional<Standing> standing{};           ///< for the diagrams; none: it does not stand
+  std::string title;                     ///< the model's name
+  const TriangleMesh* before = nullptr;  ///< what came; none: only `after` is shown
+  const TriangleMesh* after = nullptr;   ///< what was judged or written; none: only `before` is shown
+  std::vector<Pose> poses{};             ///< how it is shown; one or more
+  std::optional<Report> report{};        ///< of check and stand
+  std::optional<Judgement> judgement{};  ///< of validate and stand
+  Process process = Process::fdm;        ///< that it was judged for
+  std::optional<Standing> standing{};    ///< for the diagrams; none: it does not stand
   double required_tip_rad = 0;
 };
 
