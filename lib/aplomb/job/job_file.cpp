@@ -4,10 +4,10 @@
 
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <span>
+
+#include "aplomb/job/detail/degrees.h"
 
 namespace aplomb {
 namespace {
@@ -15,7 +15,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-constexpr double degree = std::numbers::pi / 180;
+using detail::degree;
+using detail::degrees_of;
+
 constexpr std::array<const char*, 6> up_names{"x", "y", "z", "-x", "-y", "-z"};  // in UpAxis' order
 constexpr std::array<const char*, 3> aim_names{"least", "light", "stable"};      // in CarveAim's order
 constexpr std::array<const char*, 3> deform_names{"never", "auto", "only"};      // in Deform's order
@@ -31,15 +33,6 @@ Vec3 axis(std::size_t up_name) {
   Vec3 v;
   v[static_cast<int>(up_name % 3)] = up_name < 3 ? 1 : -1;
   return v;
-}
-
-/// The degrees that are this angle to the last bit, as short as they can be; of an angle given in radians the nearest.
-double degrees_of(double angle_rad) {
-  const double nearest = angle_rad / degree;
-  const double rounded = std::strtod(fmt::format("{:.12g}", nearest).c_str(), nullptr);
-  for (const double candidate : {rounded, nearest, std::nextafter(nearest, -1e9), std::nextafter(nearest, 1e9)})
-    if (candidate * degree == angle_rad) return candidate;
-  return nearest;
 }
 
 Vec3 vec_of(const Json& json) { return {json[0].get<double>(), json[1].get<double>(), json[2].get<double>()}; }
@@ -97,7 +90,6 @@ class Reader {
     if (const auto at = json_.find(key); at != json_.end())
       for (const Json& point : *at) field.push_back(vec_of(point));
   }
-  void words(const char* key, std::vector<std::string>& field) const { value(key, field); }
   template <class Item, class Visit>
   void list(const char* key, std::vector<Item>& field, const Visit& visit) const {
     if (const auto at = json_.find(key); at != json_.end())
@@ -171,9 +163,6 @@ class Writer {
   void points(const char* key, const std::vector<Vec3>& field) const {
     json_[key] = Json::array();
     for (const Vec3& point : field) json_[key].push_back(json_of(point));
-  }
-  void words(const char* key, const std::vector<std::string>& field) const {
-    if (!field.empty()) json_[key] = field;
   }
   template <class Item, class Visit>
   void list(const char* key, std::vector<Item>& field, const Visit& visit) const {
@@ -292,7 +281,7 @@ void visit_job(const Visitor& v, JobFile& job) {
     l.value("check", limit.id);
     l.value("limit", limit.value);
   });
-  v.words("waive", job.rules.waived);
+  v.value("waive", job.rules.waived);
 }
 
 }  // namespace
