@@ -5,8 +5,7 @@
 namespace aplomb {
 
 bool Judgement::passes() const {
-  return std::ranges::none_of(checks,
-                              [](const CheckResult& c) { return c.verdict == CheckResult::Verdict::failed; });
+  return std::ranges::none_of(checks, [](const CheckResult& c) { return c.verdict == CheckResult::Verdict::failed; });
 }
 
 }  // namespace aplomb

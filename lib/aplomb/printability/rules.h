@@ -24,11 +24,11 @@ struct Limits {
 /// One check, or one number that checks need, and its defaults.
 struct CheckRule {
   std::string_view id;
-  std::string_view unit;  ///< "mm", "mm2", "deg", "MPa", "%", or "" for counts
-  std::string_view what;  ///< is measured: "least wall between a void and the outside"
-  bool is_least = true;   ///< a measure below its limit is wrong; else above it
+  std::string_view unit;                          ///< "mm", "mm2", "deg", "MPa", "%", or "" for counts
+  std::string_view what;                          ///< is measured: "least wall between a void and the outside"
+  bool is_least = true;                           ///< a measure below its limit is wrong; else above it
   std::array<std::optional<Limits>, 4> limits{};  ///< by process; none: no check there
-  bool is_check = true;   ///< false: a number that a check uses, such as the diameter of a hole
+  bool is_check = true;                           ///< false: a number that a check uses, such as the diameter of a hole
 };
 
 /// Every check and number, with its defaults and, in rules.cpp, where they come from.
