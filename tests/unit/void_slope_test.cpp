@@ -46,8 +46,7 @@ TEST(VoidSlope, a_flat_ceiling_within_the_span_of_a_bridge_is_none_but_in_resin)
 }
 
 TEST(VoidSlope, a_low_roof_that_is_narrow_bridges_too) {
-  const std::vector<Place> narrow = slopes(roof(30, 4.9), Process::fdm);
-  EXPECT_TRUE(narrow.empty() || narrow.front().measured > 89);  // walls that lean by a rounding
+  EXPECT_TRUE(slopes(roof(30, 4.9), Process::fdm).empty());
   EXPECT_NEAR(slopes(roof(30, 5.1), Process::fdm).front().measured, 30, 1e-3);
 }
 

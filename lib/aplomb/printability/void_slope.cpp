@@ -95,7 +95,7 @@ class Ceiling {
     std::vector<adapters::Line> rests;
   };
 
-  /// The patch seen from above, by its rim, and where it rests: where the surface beyond the rim goes down.
+  /// The patch seen from above, by its rim, and the parts of it where it rests.
   Plan plan_of(const Facets& patch) const {
     std::multimap<std::uint32_t, detail::Corner> rim;  // by the vertex that a half-edge of the patch leaves
     for (const std::uint32_t t : patch)
@@ -108,7 +108,7 @@ class Ceiling {
       for (auto edge = rim.begin(); edge != rim.end();) {
         const detail::Corner c = edge->second;
         rim.erase(edge);
-        const bool rests = descends_beyond(c);
+        const bool rests = rests_at(c);
         loop.push_back(flat(at(corners_.vertex(c))));
         if (rests && !rested) plan.rests.push_back({loop.back()});
         if (rests) plan.rests.back().push_back(flat(at(corners_.head(c))));
@@ -120,12 +120,12 @@ class Ceiling {
     return plan;
   }
 
-  /// Whether the facet across the half-edge goes down from it.
-  bool descends_beyond(detail::Corner c) const {
-    const Vec3 a = at(corners_.vertex(c)), along = at(corners_.head(c)) - a;
-    const Vec3 tip = at(corners_.vertex(detail::CornerTable::previous(corners_.twin(c)))) - a;
-    const Vec3 away = tip - (dot(tip, along) / squared_norm(along)) * along;
-    return away.z < 0;
+  /// Whether the surface beyond the half-edge bends down into the void, so that there is material under the edge.
+  bool rests_at(detail::Corner c) const {
+    const Triangle& facet = surface_.triangles[c / 3];
+    const Vec3 a = at(facet[0]), normal = cross(at(facet[1]) - a, at(facet[2]) - a);
+    const std::uint32_t beyond = corners_.vertex(detail::CornerTable::previous(corners_.twin(c)));
+    return dot(normal, at(beyond) - at(corners_.vertex(c))) > 0;
   }
 
   Vec3 at(std::uint32_t vertex) const { return surface_.vertices[vertex]; }
