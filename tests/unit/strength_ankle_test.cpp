@@ -103,7 +103,8 @@ TEST(StrengthAnkle, sound_shapes_bear_a_push) {
         test::star_prism(16, 20, 16, 10), test::torus({0, 0, 6}, 20, 6, 64, 32), test::box({}, {60, 60, 2}),
         test::with_void(test::sphere({}, 20, 4), test::sphere({}, 18, 4))}) {
     const std::vector<Place> found = ankles(mesh, 1.24);
-    EXPECT_TRUE(found.empty() || found.front().measured < 16.5) << found.front().measured << " at z " << found.front().at_mm.z;
+    EXPECT_TRUE(found.empty() || found.front().measured < 16.5)
+        << found.front().measured << " at z " << found.front().at_mm.z;
   }
 }
 

@@ -44,7 +44,9 @@ TEST(VoidCup, two_percent_around_the_area_shows_in_every_orientation_about_the_v
 
 TEST(VoidCup, what_is_lower_than_the_limit_by_a_layer_is_none) {
   for (const double layer_mm : {0.05, 0.1}) {
-    const auto crack = [](double height) { return test::with_void(outside, test::box({-5, -4, 10}, {5, 4, 10 + height})); };
+    const auto crack = [](double height) {
+      return test::with_void(outside, test::box({-5, -4, 10}, {5, 4, 10 + height}));
+    };
     EXPECT_TRUE(cups(crack(0.48 - layer_mm), layer_mm).empty());
     EXPECT_FALSE(cups(crack(0.52 + layer_mm), layer_mm).empty());
   }
@@ -65,7 +67,8 @@ TEST(VoidCup, a_hole_airs_it_but_not_a_leak) {
 
 TEST(VoidCup, two_that_unite_are_one) {
   // Two shafts under one room: a U turned over, as a void.
-  const TriangleMesh legs = test::strip({{-15, 5}, {-15, 30}, {15, 30}, {15, 5}}, {{-5, 5}, {-5, 20}, {5, 20}, {5, 5}}, 8);
+  const TriangleMesh legs =
+      test::strip({{-15, 5}, {-15, 30}, {15, 30}, {15, 5}}, {{-5, 5}, {-5, 20}, {5, 20}, {5, 5}}, 8);
   const std::vector<Place> found = cups(test::with_void(outside, transformed(legs, test::translation({0, -4, 0}))));
   ASSERT_EQ(found.size(), 1);
   EXPECT_NEAR(found.front().measured, 30 * 8, 1e-3);

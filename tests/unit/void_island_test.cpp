@@ -38,9 +38,21 @@ TEST(VoidIsland, resin_asks_for_a_quarter_of_a_part_to_be_held) {
     return test::with_void(
         outside, test::lathe({{0, 5}, {10, 5}, {10, 25}, {4, 25}, {4, 20}, {stub, 20}, {stub, 15}, {0, 15}}, 64));
   };
-  EXPECT_NEAR(islands(stepped(0.245), Process::sla).front().measured, disc_mm2(4), 1e-3);
-  EXPECT_NEAR(islands(stepped(0.255), Process::sla).front().measured, 0.255 * disc_mm2(4), 1e-3);
-  EXPECT_NEAR(islands(stepped(0.245), Process::fdm).front().measured, 0.245 * disc_mm2(4), 1e-3);
+  EXPECT_EQ(islands(stepped(0.245), Process::sla).size(), 2);
+  EXPECT_EQ(islands(stepped(0.255), Process::sla).size(), 1);
+  EXPECT_EQ(islands(stepped(0.245), Process::fdm).size(), 1);
+  EXPECT_NEAR(islands(stepped(0.245), Process::fdm).front().measured, disc_mm2(4), 1e-3);
+}
+
+TEST(VoidIsland, a_sharp_tip_counts_with_what_it_grows_to_and_a_bump_does_not_count) {
+  const auto pendant = [](double radius, double tip) {
+    return test::with_void(outside, test::lathe({{0, 5}, {10, 5}, {10, 25}, {radius, 25}, {0, tip}}, 64));
+  };
+  const std::vector<Place> spike = islands(pendant(3, 15), Process::fdm);
+  ASSERT_EQ(spike.size(), 1);
+  EXPECT_NEAR(spike.front().measured, disc_mm2(3), 0.05 * disc_mm2(3));
+  EXPECT_NEAR(spike.front().at_mm.z, 15, 0.3);
+  EXPECT_TRUE(islands(pendant(0.15, 24.3), Process::fdm).empty());
 }
 
 TEST(VoidIsland, a_body_that_floats_in_a_void_is_one) {

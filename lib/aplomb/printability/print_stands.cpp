@@ -75,11 +75,15 @@ void append_shares(const Slice& slice, double layer_mm, const std::vector<detail
     const auto is_same = [&](const detail::PrintedSoFar& other) { return other.body == state.body; };
     if (!state.contact || std::any_of(states.begin(), states.begin() + static_cast<std::ptrdiff_t>(part), is_same))
       continue;
+    Box2 box;
+    for (std::size_t i = part; i < states.size(); ++i)
+      if (is_same(states[i])) {
+        box.add(slice.outline(slice.parts[i]).box_mm.min);
+        box.add(slice.outline(slice.parts[i]).box_mm.max);
+      }
     const Vec3 center = state.moments.centroid_mm();
     const double share = supports[*state.contact]->share_left({center.x, center.y});
-    found.push_back({share,
-                     {center.x, center.y, slice.z_mm},
-                     detail::box_of(slice.outline(slice.parts[part]).box_mm, slice.z_mm, layer_mm)});
+    found.push_back({share, {center.x, center.y, slice.z_mm}, detail::box_of(box, slice.z_mm, layer_mm)});
   }
 }
 

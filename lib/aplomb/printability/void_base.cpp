@@ -41,9 +41,13 @@ Result<std::optional<Vec3>> lowest_over(const TriangleMesh& surface, const Polyg
   std::vector<std::uint32_t> upward(surface.triangles.size());
   std::iota(upward.begin(), upward.end(), 0U);
   std::ranges::stable_sort(upward, {}, bottom_mm);
+  const Box2 box = bounding_box(region);
   std::optional<Vec3> lowest;
   for (const std::uint32_t t : upward) {
     if (lowest && bottom_mm(t) >= lowest->z) break;
+    Box2 plan;
+    for (const Vec3& corner : corners_of(t)) plan.add({corner.x, corner.y});
+    if (!box.meets(plan)) continue;
     const Result<std::optional<Vec3>> here = lowest_over(corners_of(t), region);
     if (!here) return here;
     if (*here && (!lowest || (*here)->z < lowest->z)) lowest = *here;

@@ -12,7 +12,7 @@
 namespace aplomb {
 namespace {
 
-constexpr double longest_step_mm = 0.5;
+constexpr double longest_step_mm = 0.5, tolerance_mm = 2e-4;
 constexpr double precision_mm = 2.5e-4;  // of a distance; a span is two
 constexpr double least_area_mm2 = 1e-8;  // less is rounding
 
@@ -23,7 +23,7 @@ struct Core {
   Polygons region;
 
   Result<Core> deeper(double by_mm) const {
-    Result<Polygons> inner = adapters::grown(region, -by_mm);
+    Result<Polygons> inner = adapters::grown(region, -by_mm, tolerance_mm);
     if (!inner) return tl::unexpected(inner.error());
     return Core{depth_mm + by_mm, std::move(*inner)};
   }

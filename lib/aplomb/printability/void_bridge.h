@@ -22,7 +22,7 @@ namespace aplomb {
 ///
 /// the diameter of the largest circle round a point of it that no support reaches into. A printer lays the strands of a
 /// bridge along its shortest way, so a slot is bridged across its width, and a round ceiling, which is the same every
-/// way, across its diameter; material that ends in mid-air counts twice its reach. Searched to 1e-3 mm. A flat
+/// way, across its diameter; material that ends in mid-air counts twice its reach. Good to 3e-3 mm. A flat
 /// ceiling's span does not depend on the layer height; a ceiling that is flat for less than a layer counts with what
 /// one layer sees of it: the top of a ball of radius R spans up to 2 sqrt(2 R layer).
 ///

@@ -11,12 +11,12 @@
 
 namespace aplomb {
 
-/// "void.island": parts of a layer that start in mid-air inside a void, mm2 of the part.
+/// "void.island": what starts in mid-air inside a void, mm2 of its largest layer before it is joined to something.
 ///
-/// A part lies inside a void when more than half of it is over the voids of the layer below. It starts there when
-/// nothing is under it (less than 1e-6 of it); for resin, which peels a part off that hangs by a corner, when less than
-/// a quarter is held (UVtools). What is narrower than a layer sees, such as the tip of a cone, counts with its first
-/// slice.
+/// A part of a layer lies inside a void when more than half of it is over the voids of the layer below. It starts there
+/// when nothing is under it (less than 1e-6 of it); for resin, which peels a part off that hangs by a corner, when less
+/// than a quarter is held (UVtools). What grows to less than 0.1 mm2, a dot of a nozzle, before it is joined is a bump
+/// of the surface and no island (our choice).
 ///
 /// \return Places where the process has the check; none where there is no such part. third_party, cancelled.
 /// \par Cost  Set operations only where a layer has two parts or more and one lies where a void was.

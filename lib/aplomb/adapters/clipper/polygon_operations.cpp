@@ -62,6 +62,8 @@ Result<Polygons> offset(const cl::Paths& from, cl::EndType ends, double by_mm, d
     cl::ClipperOffset offset(2, tolerance_mm * units_per_mm);
     offset.AddPaths(from, cl::jtRound, ends);
     offset.Execute(paths, by_mm * units_per_mm);
+    cl::CleanPolygons(paths, tolerance_mm * units_per_mm);  // a round corner becomes two corners at least
+    std::erase_if(paths, [](const cl::Path& path) { return path.size() < 3; });
     return true;
   });
 }

@@ -12,7 +12,8 @@ Result<Polygons> intersection(const Polygons& a, const Polygons& b);
 Result<Polygons> difference(const Polygons& a, const Polygons& b);
 
 /// All points within by_mm of the region; where by_mm is negative, all points of it farther than -by_mm from its
-/// rim. Round corners are polygons inside the true arc, by at most tolerance_mm. \pre The loops do not cross.
+/// rim. Round corners are polygons inside the true arc, and corners off their neighbours' line are left out, both by at
+/// most tolerance_mm. \pre The loops do not cross.
 Result<Polygons> grown(const Polygons& polygons, double by_mm, double tolerance_mm = 1e-4);
 
 using Line = std::vector<Vec2>;  // two points or more, open
