@@ -1,0 +1,93 @@
+#include "aplomb/core/polygon.h"
+
+#include <cmath>
+#include <cstddef>
+
+namespace aplomb {
+
+PlaneMoments PlaneMoments::about_centroid() const {
+  const Vec2 c = centroid_mm();
+  return {area_mm2, {}, xx_mm4 - area_mm2 * c.x * c.x, xy_mm4 - area_mm2 * c.x * c.y, yy_mm4 - area_mm2 * c.y * c.y};
+}
+
+PlaneMoments operator+(const PlaneMoments& a, const PlaneMoments& b) {
+  return {a.area_mm2 + b.area_mm2, a.first_mm3 + b.first_mm3, a.xx_mm4 + b.xx_mm4, a.xy_mm4 + b.xy_mm4,
+          a.yy_mm4 + b.yy_mm4};
+}
+
+PlaneMoments plane_moments(const Polygon& polygon) {
+  PlaneMoments sum;
+  if (polygon.empty()) return sum;
+  const Vec2 origin = polygon.front();  // so that a polygon far from the origin loses no digits of its area
+  Vec2 a = polygon.back() - origin;
+  for (const Vec2& point : polygon) {
+    const Vec2 b = point - origin;
+    const double c = cross(a, b);
+    sum += {c / 2, (c / 6) * (a + b), c / 12 * (a.x * a.x + a.x * b.x + b.x * b.x),
+            c / 24 * (2 * a.x * a.y + a.x * b.y + b.x * a.y + 2 * b.x * b.y),
+            c / 12 * (a.y * a.y + a.y * b.y + b.y * b.y)};
+    a = b;
+  }
+  const auto [area, first, xx, xy, yy] = sum;
+  const Vec2 o = origin;
+  return {area, first + area * o, xx + 2 * o.x * first.x + area * o.x * o.x,
+          xy + o.x * first.y + o.y * first.x + area * o.x * o.y, yy + 2 * o.y * first.y + area * o.y * o.y};
+}
+
+double area_mm2(const Polygon& polygon) {
+  if (polygon.empty()) return 0;
+  double twice = 0;
+  for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
+    twice += cross(polygon[i] - polygon[0], polygon[i + 1] - polygon[0]);
+  return twice / 2;
+}
+
+double area_mm2(const Polygons& polygons) {
+  double sum = 0;
+  for (const Polygon& polygon : polygons) sum += area_mm2(polygon);
+  return sum;
+}
+
+Box2 bounding_box(const Polygon& polygon) {
+  Box2 box;
+  for (const Vec2& point : polygon) box.add(point);
+  return box;
+}
+
+Box2 bounding_box(const Polygons& polygons) {
+  Box2 box;
+  for (const Polygon& polygon : polygons)
+    for (const Vec2& point : polygon) box.add(point);
+  return box;
+}
+
+bool encloses(const Polygon& polygon, Vec2 p) {
+  if (polygon.empty()) return false;
+  bool inside = false;
+  Vec2 a = polygon.back();
+  for (const Vec2& b : polygon) {
+    if ((a.y > p.y) != (b.y > p.y) && (cross(b - a, p - a) > 0) == (b.y > a.y)) inside = !inside;
+    a = b;
+  }
+  return inside;
+}
+
+std::vector<Polygons> pieces(const Polygons& polygons) {
+  std::vector<Polygons> found;
+  std::vector<double> areas;
+  for (const Polygon& polygon : polygons)
+    if (const double area = area_mm2(polygon); area > 0) {
+      found.push_back({polygon});
+      areas.push_back(area);
+    }
+  for (const Polygon& polygon : polygons) {
+    if (!(area_mm2(polygon) < 0)) continue;
+    std::size_t owner = found.size();
+    for (std::size_t i = 0; i < found.size(); ++i)
+      if ((owner == found.size() || areas[i] < areas[owner]) && encloses(found[i].front(), polygon.front())) owner = i;
+    if (owner < found.size()) found[owner].push_back(polygon);
+  }
+  return found;
+}
+
+}  // namespace aplomb

@@ -1,0 +1,130 @@
+#include "aplomb/printability/void_bridge.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "aplomb/adapters/clipper/polygon_operations.h"
+#include "aplomb/printability/detail/places.h"
+
+namespace aplomb {
+namespace {
+
+constexpr double longest_step_mm = 0.5, tolerance_mm = 2e-4;
+constexpr double precision_mm = 2.5e-4;  // of a distance; a span is two
+constexpr double least_area_mm2 = 1e-8;  // less is rounding
+
+/// A region, and what is left of it farther from its rim than a depth. Clipper's inset makes a spike of the inset's
+/// length at every corner and all of them cross, so a deep one is made of short ones: erosion by balls adds up.
+struct Core {
+  double depth_mm = 0;
+  Polygons region;
+
+  Result<Core> deeper(double by_mm) const {
+    Result<Polygons> inner = adapters::grown(region, -by_mm, tolerance_mm);
+    if (!inner) return tl::unexpected(inner.error());
+    return Core{depth_mm + by_mm, std::move(*inner)};
+  }
+};
+
+/// A connected ceiling without support, at the layer above what it spans.
+class Span {
+ public:
+  /// \pre The piece is what of the core has material above it.
+  Span(Core core, const Polygons& void_above, Polygons piece)
+      : core_(std::move(core)), above_(void_above), piece_(std::move(piece)), left_(piece_) {}
+
+  /// The largest distance from a point of the piece to support, and that point; nothing if it is below least_mm.
+  Result<std::optional<Place>> farthest(double least_mm) {
+    const double first_mm = core_.depth_mm;
+    double high = first_mm;
+    for (bool is_left = true; is_left;) {
+      high = core_.depth_mm + std::clamp(core_.depth_mm / 2, first_mm, std::max(first_mm, longest_step_mm));
+      const Result<bool> reached = reach(high);
+      if (!reached) return tl::unexpected(reached.error());
+      is_left = *reached;
+    }
+    if (high < least_mm) return std::nullopt;
+    while (high - core_.depth_mm > precision_mm) {
+      const double middle = (core_.depth_mm + high) / 2;
+      const Result<bool> reached = reach(middle);
+      if (!reached) return tl::unexpected(reached.error());
+      if (!*reached) high = middle;
+    }
+    const Vec2 at = left_.front().front();
+    return Place{2 * core_.depth_mm, {at.x, at.y, 0}, {}};
+  }
+
+ private:
+  /// Whether any of the piece is as far from support; if so, the core is that deep from now on.
+  Result<bool> reach(double depth_mm) {
+    Result<Core> core = core_.deeper(depth_mm - core_.depth_mm);
+    if (!core) return tl::unexpected(core.error());
+    Result<Polygons> left = adapters::difference(core->region, above_);
+    if (left) left = adapters::intersection(*left, piece_);
+    if (!left) return tl::unexpected(left.error());
+    if (!(area_mm2(*left) > least_area_mm2)) return false;
+    core_ = std::move(*core);
+    left_ = std::move(*left);
+    return true;
+  }
+
+  Core core_;
+  const Polygons& above_;
+  Polygons piece_, left_;
+};
+
+/// The smallest distance that is still worth finding: that of the mildest limit, or of the worst place so far.
+double least_distance_mm(double limit_mm, const std::vector<Place>& found) {
+  double worst_mm = 0;
+  for (const Place& place : found) worst_mm = std::max(worst_mm, place.measured);
+  return std::min(limit_mm, worst_mm) / 2;
+}
+
+/// Appends the spans of a slice over the voids of the layer below it, as far as they matter.
+Result<void> append_spans(const Slice& slice, const Polygons& void_below, double overhang_mm, double limit_mm,
+                          double layer_mm, std::vector<Place>& found) {
+  const Polygons above = slice.void_space();
+  const Result<Core> core = Core{0, void_below}.deeper(overhang_mm);
+  if (!core) return tl::unexpected(core.error());
+  Result<Polygons> free = adapters::difference(core->region, above);
+  if (free && area_mm2(*free) > least_area_mm2)  // a ceiling thinner than a layer may leave open air there
+    free = adapters::intersection(*free, slice.material());
+  if (!free) return tl::unexpected(free.error());
+  for (Polygons& piece : pieces(*free)) {
+    if (!(area_mm2(piece) > least_area_mm2)) continue;
+    const Box3 box = detail::box_of(bounding_box(piece), slice.z_mm, layer_mm);
+    const Result<std::optional<Place>> place =
+        Span(*core, above, std::move(piece)).farthest(least_distance_mm(limit_mm, found));
+    if (!place) return tl::unexpected(place.error());
+    if (!*place) continue;
+    found.push_back({(*place)->measured, {(*place)->at_mm.x, (*place)->at_mm.y, slice.z_mm}, box});
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<std::vector<Place>> measure_void_bridge(const PrintedSolid&, const Slices& slices, const Rules& rules,
+                                               const Job& job) {
+  const std::optional<double> limit = detail::mildest_limit(rules, "void.bridge");
+  if (!limit) return std::vector<Place>{};
+  const double slope_deg = std::clamp(detail::mildest_limit(rules, "void.slope").value_or(45), 1.0, 89.0);
+  const double overhang_mm = slices.layer_mm / std::tan(slope_deg * std::numbers::pi / 180);
+  std::vector<Place> found;
+  const std::size_t layers = slices.layers.size();
+  for (std::size_t layer = layers; layer-- > 1;) {  // from above: domes are widest at their top, which spares the rest
+    if (!job.report(static_cast<double>(layers - layer) / static_cast<double>(layers), "void bridges"))
+      return cancelled();
+    const Polygons void_below = slices.layers[layer - 1].void_space();
+    if (void_below.empty()) continue;
+    const Result<void> done =
+        append_spans(slices.layers[layer], void_below, overhang_mm, *limit, slices.layer_mm, found);
+    if (!done) return tl::unexpected(done.error());
+  }
+  return detail::reported(std::move(found), rules, "void.bridge", slices.layer_mm);
+}
+
+}  // namespace aplomb
