@@ -24,8 +24,8 @@ TEST(BendModels, AnElephantThatPressesOnTheGroundGetsAsFarAsTheLimitAllows) {
   const auto input = load_solid(models_folder() / "elephant_pmp.off", options);
   ASSERT_TRUE(input) << input.error().message;
   const std::vector<Pose> poses{{.way = StandingPose{.contact_height_mm = 1}}};
-  const auto reshaper = Reshaper::make(input->solid, poses, RowKind::nominal,
-                                       {.most_mean_percent = 15, .most_trim_mm = 0, .wall_mm = 2});
+  const auto reshaper =
+      Reshaper::make(input->solid, poses, RowKind::nominal, {.most_mean_percent = 15, .most_trim_mm = 0, .wall_mm = 2});
   ASSERT_TRUE(reshaper) << reshaper.error().message;
   const auto reshaped = reshaper->reshape(0);
   ASSERT_TRUE(reshaped) << reshaped.error().message;
