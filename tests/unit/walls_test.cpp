@@ -84,11 +84,14 @@ TEST(WallThin, a_wedge_is_thin_only_where_it_is_sharper_than_twenty_degrees) {
 }
 
 TEST(WallThin, sharp_edges_and_corners_are_not_thin) {
-  const std::vector<TriangleMesh> sound{
-      test::box({0, 0, 0}, {20, 20, 20}),       test::sphere({0, 0, 20}, 20, 4),
-      test::cone({0, 0, 0}, 10, 15, 64),        test::torus({0, 0, 5}, 20, 4, 96, 32),
-      test::star_prism(5, 30, 12, 10),          test::star_prism(24, 20, 17, 6),
-      test::tetrahedron({0, 0, 0}, {20, 0, 0}, {0, 20, 0}, {0, 0, 20}), test::leaning_prism(20, 20, 30, 40)};
+  const std::vector<TriangleMesh> sound{test::box({0, 0, 0}, {20, 20, 20}),
+                                        test::sphere({0, 0, 20}, 20, 4),
+                                        test::cone({0, 0, 0}, 10, 15, 64),
+                                        test::torus({0, 0, 5}, 20, 4, 96, 32),
+                                        test::star_prism(5, 30, 12, 10),
+                                        test::star_prism(24, 20, 17, 6),
+                                        test::tetrahedron({0, 0, 0}, {20, 0, 0}, {0, 20, 0}, {0, 0, 20}),
+                                        test::leaning_prism(20, 20, 30, 40)};
   for (const TriangleMesh& mesh : sound)
     for (const Affine3& turn : turns())
       for (const double limit : {0.5, 0.8, 2.0}) EXPECT_TRUE(thin(printed(mesh, turn), limit).empty());
@@ -134,7 +137,8 @@ TEST(WallVoidOuter, the_verdict_flips_at_the_limit_and_names_the_place) {
 }
 
 TEST(WallVoidOuter, each_thin_spot_is_a_place_of_its_own) {
-  const auto shell = printed(test::with_void(test::box({0, 0, 0}, {40, 40, 40}), test::box({0.5, 5, 5}, {39.4, 35, 35})));
+  const auto shell =
+      printed(test::with_void(test::box({0, 0, 0}, {40, 40, 40}), test::box({0.5, 5, 5}, {39.4, 35, 35})));
   const auto places = wall_void_outer(shell, rules_with("wall.void_outer", 0.8));
   ASSERT_EQ(places->size(), 2U);
   EXPECT_NEAR(places->front().measured, 0.5, 1e-4);

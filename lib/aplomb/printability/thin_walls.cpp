@@ -19,9 +19,9 @@ using detail::SurfaceSample;
 constexpr std::size_t most_samples = 250'000;
 constexpr std::size_t batch = 1 << 14;            // between two looks at the job
 constexpr double spacing_ratio = 0.4;             // of the limit
-constexpr double least_spot_ratio = 2;            // of the limit squared
+constexpr double least_spot_ratio = 4;            // of the limit squared
 constexpr double opposite_cos = 0.9396926207859;  // cos(20 degrees)
-constexpr std::size_t few_samples = 8192;  // for what passes by far
+constexpr std::size_t few_samples = 8192;         // for what passes by far
 
 /// Finds how thick the solid is at samples of its surface.
 class Thickness {

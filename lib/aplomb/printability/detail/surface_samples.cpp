@@ -26,8 +26,7 @@ void add_cells(Vec3 a, Vec3 b, Vec3 c, double spacing, std::uint32_t triangle, s
     const double rise = height * (u < foot ? u / foot : (1 - u) / (1 - foot));
     const int cells = std::max(1, static_cast<int>(std::ceil(rise / spacing)));
     for (int j = 0; j < cells; ++j)
-      samples.push_back(
-          {a + u * (b - a) + ((j + 0.5) / cells * rise) * up, triangle, length / strips * rise / cells});
+      samples.push_back({a + u * (b - a) + ((j + 0.5) / cells * rise) * up, triangle, length / strips * rise / cells});
   }
 }
 
