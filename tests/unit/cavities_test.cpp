@@ -134,8 +134,9 @@ TEST(Cavities, a_leak_is_no_way_out) {
 }
 
 TEST(Cavities, a_closed_shell_is_one_whatever_its_size_and_known_exactly) {
-  const TriangleMesh solid = test::with_void(test::with_void(test::box({0, 0, 0}, {40, 40, 40}), test::box({4, 4, 4}, {24, 34, 9})),
-                                             test::box({30, 30, 30}, {31, 31, 31}));
+  const TriangleMesh solid =
+      test::with_void(test::with_void(test::box({0, 0, 0}, {40, 40, 40}), test::box({4, 4, 4}, {24, 34, 9})),
+                      test::box({30, 30, 30}, {31, 31, 31}));
   const auto found = cavities(solid, 4);
   ASSERT_EQ(found.size(), 2U);
   EXPECT_NEAR(found[0].volume_mm3, 3000, 1e-6);
@@ -179,11 +180,12 @@ TEST(Cavities, cups_vases_rings_bores_and_notches_are_none) {
       test::torus({0, 0, 0}, 20, 6, 64, 32),
       test::star_prism(24, 30, 24, 10),
       test::star_prism(5, 40, 15, 20),
-      test::lathe({{0, 0}, {15, 0}, {15, 30}, {13, 30}, {13, 2}, {0, 2}}, segments),                       // a cup
-      test::lathe({{0, 0}, {15, 0}, {10, 30}, {8, 30}, {13, 2}, {0, 2}}, segments),                        // a vase
-      test::lathe({{0, 0}, {15, 0}, {15, 30}, {flats * 2, 30}, {flats * 2, 5}, {0, 5}}, segments),         // a blind bore
-      ring({{flats * 2, 0}, {15, 0}, {15, 30}, {flats * 2, 30}}),                                          // a bore
-      joined(test::box({0, 0, 0}, {20, 20, 20}), test::box({24, 0, 0}, {44, 20, 20})), hollow_ball(14, 2, 7.5, 0)};
+      test::lathe({{0, 0}, {15, 0}, {15, 30}, {13, 30}, {13, 2}, {0, 2}}, segments),                // a cup
+      test::lathe({{0, 0}, {15, 0}, {10, 30}, {8, 30}, {13, 2}, {0, 2}}, segments),                 // a vase
+      test::lathe({{0, 0}, {15, 0}, {15, 30}, {flats * 2, 30}, {flats * 2, 5}, {0, 5}}, segments),  // a blind bore
+      ring({{flats * 2, 0}, {15, 0}, {15, 30}, {flats * 2, 30}}),                                   // a bore
+      joined(test::box({0, 0, 0}, {20, 20, 20}), test::box({24, 0, 0}, {44, 20, 20})),
+      hollow_ball(14, 2, 7.5, 0)};
   for (const TriangleMesh& mesh : open)
     for (const Affine3& turn : turns())
       for (const double hole : {3.5, 5.0}) EXPECT_TRUE(cavities(mesh, hole, turn).empty());

@@ -28,7 +28,7 @@ constexpr double spacing_ratio = 0.5;
 constexpr double wide_ratio = 3;
 constexpr double least_ratio = 0.565;  // 1 - spacing_ratio * sqrt(3) / 2: how near a lattice point is to a way
 
-constexpr double narrow_ratio = 0.5;     // of a cavity's clearance: wider openings make it a cup
+constexpr double narrow_ratio = 0.5;       // of a cavity's clearance: wider openings make it a cup
 constexpr double same_basin_ratio = 0.65;  // the same as the lattice may show it, for a clearance of 2 rho
 constexpr double least_volume_balls = 2;
 constexpr std::size_t most_blocks = 1 << 15;
@@ -39,21 +39,18 @@ using Pair = std::pair<std::uint32_t, std::uint32_t>;
 class CavitySearch {
  public:
   CavitySearch(const EmptySpace& space, const ClearanceLattice& lattice, double rho_mm)
-      : space_(space),
-        lattice_(lattice),
-        rho_(rho_mm),
-        basins_(lattice, least_ratio * rho_mm, same_basin_ratio) {}
+      : space_(space), lattice_(lattice), rho_(rho_mm), basins_(lattice, least_ratio * rho_mm, same_basin_ratio) {}
 
   Result<std::vector<Cavity>> find(const Job& job);
 
  private:
-
   void drop_narrow_basins();
   std::map<Pair, std::vector<Basins::Contact>> patches();
   const Passage& passage(const Basins::Contact& contact);
   Result<void> merge_wide_open(const Job& job);
   std::vector<Cavity> cavities();
   void measure(std::vector<Cavity>& cavities, const std::map<std::uint32_t, std::size_t>& cavity_of);
+  std::uint32_t basin_beside(std::uint32_t element);
   void extend(Cavity& cavity, std::uint32_t element) const;
 
   const EmptySpace& space_;
@@ -65,10 +62,10 @@ class CavitySearch {
 
 /// Where no ball finds room is only a part of the way to somewhere else.
 void CavitySearch::drop_narrow_basins() {
-  const double h = lattice_.frame().voxel_mm;
   for (std::uint32_t basin = 1; basin < basins_.count(); ++basin)
-    if (basins_.is_root(basin) && basins_.peak_mm(basin) < lattice_.wide_mm()) {
-      const detail::Peak peak = detail::climb(space_, basins_.peak_at_mm(basin), 0.5 * h);
+    if (basins_.is_root(basin)) {
+      const double step = std::max(0.25 * lattice_.frame().voxel_mm, 0.25 * basins_.peak_mm(basin));
+      const detail::Peak peak = detail::climb(space_, basins_.peak_at_mm(basin), step);
       basins_.set_peak(basin, peak.at_mm, peak.clearance_mm);
     }
   for (const Basins::Contact& contact : basins_.contacts())
@@ -126,10 +123,19 @@ Result<void> CavitySearch::merge_wide_open(const Job& job) {
   return {};
 }
 
-/// The lowest and highest points of the wall near a lattice point, and of the space itself.
+bool is_in_an_opening(const Cavity& cavity, Vec3 point) {
+  return std::ranges::any_of(cavity.openings, [&](const Opening& opening) {
+    const double beyond = dot(point - opening.at_mm, opening.along);
+    const double beside = norm(point - opening.at_mm - beyond * opening.along);
+    return beyond > 0 && beyond < 3 * opening.diameter_mm && beside < 0.6 * opening.diameter_mm;
+  });
+}
+
+/// Adds a lattice point and the wall near it to the box and the ends, but for what lies in an opening already.
 void CavitySearch::extend(Cavity& cavity, std::uint32_t element) const {
   const double h = lattice_.frame().voxel_mm;
   const Vec3 point = lattice_.frame().position_mm(lattice_.index(element));
+  if (is_in_an_opening(cavity, point)) return;
   const auto add = [&](Vec3 p) {
     if (cavity.box_mm.empty() || p.z < cavity.lowest_mm.z) cavity.lowest_mm = p;
     if (cavity.box_mm.empty() || p.z > cavity.highest_mm.z) cavity.highest_mm = p;
@@ -145,34 +151,34 @@ void CavitySearch::extend(Cavity& cavity, std::uint32_t element) const {
       add(corner);
 }
 
-/// Volume, box and ends, with the points along the walls that were too narrow for a basin.
+/// The basin that a point too narrow for one lies beside: uphill from there, along lines in empty space.
+std::uint32_t CavitySearch::basin_beside(std::uint32_t element) {
+  for (int steps = 0; steps < 4 && basins_.of(element) == Basins::none; ++steps) {
+    const Vec3 point = lattice_.frame().position_mm(lattice_.index(element));
+    const double clearance = lattice_.clearance_mm(element);
+    double widest = clearance;
+    std::uint32_t next = element;
+    detail::for_neighbours(lattice_, element, [&](const VoxelIndex& index, std::uint32_t other) {
+      const double there = lattice_.clearance_mm(other);
+      if (there <= widest || clearance + there < norm(lattice_.frame().position_mm(index) - point)) return;
+      widest = there;
+      next = other;
+    });
+    element = next;
+  }
+  return basins_.of(element);
+}
+
+/// Volume, box and ends, with the points along the walls that are too narrow for a basin.
 void CavitySearch::measure(std::vector<Cavity>& cavities, const std::map<std::uint32_t, std::size_t>& cavity_of) {
   const double h = lattice_.frame().voxel_mm;
-  std::vector<std::vector<std::uint32_t>> members(cavities.size());
-  std::vector<bool> is_taken(lattice_.elements());
   for (std::uint32_t element = 0; element < lattice_.elements(); ++element) {
-    const auto found = cavity_of.find(basins_.of(element));
+    if (cavities.empty() || !(lattice_.clearance_mm(element) > 0)) continue;
+    const auto found = cavity_of.find(basin_beside(element));
     if (found == cavity_of.end()) continue;
-    members[found->second].push_back(element);
-    is_taken[element] = true;
-  }
-  for (std::size_t n = 0; n < cavities.size(); ++n) {
-    for (std::size_t i = 0; i < members[n].size(); ++i) {  // grows
-      const std::uint32_t element = members[n][i];
-      const double cells = lattice_.is_wide_block(element) ? ClearanceLattice::points : 1;
-      cavities[n].volume_mm3 += cells * h * h * h;
-      extend(cavities[n], element);
-      if (lattice_.is_wide_block(element)) continue;
-      const Vec3 point = lattice_.frame().position_mm(lattice_.index(element));
-      const double clearance = lattice_.clearance_mm(element);
-      detail::for_neighbours(lattice_, element, [&](const VoxelIndex& index, std::uint32_t other) {
-        if (is_taken[other] || basins_.of(other) != Basins::none) return;
-        const double apart = norm(lattice_.frame().position_mm(index) - point);
-        if (clearance + double(lattice_.clearance_mm(other)) < apart) return;
-        is_taken[other] = true;
-        members[n].push_back(other);
-      });
-    }
+    const double cells = lattice_.is_wide_block(element) ? ClearanceLattice::points : 1;
+    cavities[found->second].volume_mm3 += cells * h * h * h;
+    extend(cavities[found->second], element);
   }
 }
 

@@ -10,9 +10,9 @@ namespace aplomb {
 
 /// A way out of a cavity.
 struct Opening {
-  Vec3 at_mm;             ///< the middle of its narrowest place; of a bore, the end on the side of the cavity
-  Vec3 along;             ///< outward, of length 1
-  double diameter_mm = 0; ///< of the largest ball that passes, at most 1.2 % below the true one
+  Vec3 at_mm;              ///< the middle of its narrowest place; of a bore, the end on the side of the cavity
+  Vec3 along;              ///< outward, of length 1
+  double diameter_mm = 0;  ///< of the largest ball that passes, at most 1.2 % below the true one
 };
 
 /// Empty space enclosed in a solid: by a closed shell of its own, or by the outer surface but for narrow openings.
@@ -20,8 +20,8 @@ struct Cavity {
   bool is_shell = false;  ///< no opening at all: a closed surface of its own
   double volume_mm3 = 0;  ///< of a shell exact, else to about a twentieth of the hole's diameter along the walls
   Box3 box_mm;
-  Vec3 deepest_mm;         ///< farthest from the walls
-  double clearance_mm = 0; ///< that distance
+  Vec3 deepest_mm;          ///< farthest from the walls
+  double clearance_mm = 0;  ///< that distance
   Vec3 lowest_mm, highest_mm;
   std::vector<Opening> openings;  ///< widest first; also those too narrow for the hole, down to 0.6 of it
 
@@ -46,8 +46,8 @@ struct Cavity {
 /// finer lattices, is narrow.
 ///
 /// \pre hole_mm > 0. \return Shells first, then by height. Errors: cancelled; over_budget for a solid too large for the
-///      lattice. \par Cost  a distance (1 to 2 us) per rho^3 / 8 of what lies within 3 rho of the outer surface, shared by the
-///      threads allowed, and 10 to 100 ms per opening.
+///      lattice. \par Cost  a distance (1 to 2 us) per rho^3 / 8 of what lies within 3 rho of the outer surface, shared
+///      by the threads allowed, and 10 to 100 ms per opening.
 Result<std::vector<Cavity>> find_cavities(const PrintedSolid& printed, double hole_mm, const Job& job = {});
 
 /// The cavities with closed surfaces of their own, lowest first. \par Cost  2 ms and O(n) each.

@@ -117,7 +117,8 @@ std::uint32_t ClearanceLattice::element(const VoxelIndex& index) const {
   const int block = (index[0] / side * size_[1] + index[1] / side) * size_[2] + index[2] / side;
   const std::uint32_t first = number_[static_cast<std::size_t>(block)];
   if (first == none || is_wide_block(first)) return first;
-  const auto point = first + static_cast<std::uint32_t>((index[0] % side * side + index[1] % side) * side + index[2] % side);
+  const auto point =
+      first + static_cast<std::uint32_t>((index[0] % side * side + index[1] % side) * side + index[2] % side);
   return clearance_mm(point) > 0 ? point : none;
 }
 

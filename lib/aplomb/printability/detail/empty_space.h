@@ -21,12 +21,14 @@ class EmptySpace {
   explicit EmptySpace(const PrintedSolid& printed);
 
   struct Clearance {
-    double mm = 0;         ///< radius of the largest ball round the point in the empty space; 0 outside that
-    double surface_mm = 0; ///< distance to the nearest surface, whatever side
+    double mm = 0;          ///< radius of the largest ball round the point in the empty space; 0 outside that
+    double surface_mm = 0;  ///< distance to the nearest surface, whatever side
     std::uint32_t triangle = no_hint;
   };
   Clearance at(Vec3 point_mm, std::uint32_t hint) const;
-  Vec3 closest_point(Vec3 point_mm, std::uint32_t triangle) const { return distance_.closest_point(point_mm, triangle); }
+  Vec3 closest_point(Vec3 point_mm, std::uint32_t triangle) const {
+    return distance_.closest_point(point_mm, triangle);
+  }
   const TriangleMesh& surface() const { return surface_; }
   const Box3& box() const { return box_; }
 
@@ -37,7 +39,8 @@ class EmptySpace {
   adapters::SurfaceDistance distance_;
 };
 
-/// Clearances on a lattice round the solid, in blocks of 8^3 points; what has `wide_mm` or more all over is kept as one.
+/// Clearances on a lattice round the solid, in blocks of 8^3 points; what has `wide_mm` or more all over is kept as
+/// one.
 ///
 /// \post Two neighbours (of 26) whose clearances add up to the distance between them are joined by a straight line in
 ///       empty space. Every point that is not in a block of its own is either blocked or in a wide one.

@@ -97,8 +97,7 @@ Way refined(const EmptySpace& space, const VoxelFrame& fine, const Way& way) {
   std::unordered_set<std::uint64_t> allowed;  // cells of 2^3 fine points
   for (const Step& step : way)
     for (int n = 0; n < 64; ++n)
-      allowed.insert(
-          key_of({step.index[0] + n / 16 - 2, step.index[1] + n / 4 % 4 - 2, step.index[2] + n % 4 - 2}));
+      allowed.insert(key_of({step.index[0] + n / 16 - 2, step.index[1] + n / 4 % 4 - 2, step.index[2] + n % 4 - 2}));
   const auto twice = [](const VoxelIndex& i) { return VoxelIndex{2 * i[0], 2 * i[1], 2 * i[2]}; };
   const VoxelIndex end = twice(way.back().index);
   std::uint32_t hint = EmptySpace::no_hint;
@@ -114,7 +113,8 @@ Way refined(const EmptySpace& space, const VoxelFrame& fine, const Way& way) {
 Passage passage_of(const Way& way, const VoxelFrame& frame) {
   const double least = way[narrowest(way)].clearance_mm;
   // Along a bore the clearance is the same but for the lattice: its mouth on the side of a counts.
-  const auto at = std::ranges::find_if(way, [&](const Step& s) { return s.clearance_mm <= 1.01 * least; }) - way.begin();
+  const auto at =
+      std::ranges::find_if(way, [&](const Step& s) { return s.clearance_mm <= 1.01 * least; }) - way.begin();
   const auto reach = static_cast<std::ptrdiff_t>(least / (2 * frame.voxel_mm)) + 1;
   const auto begin = std::max<std::ptrdiff_t>(0, at - reach);
   const auto end = std::min(static_cast<std::ptrdiff_t>(way.size()) - 1, at + reach);

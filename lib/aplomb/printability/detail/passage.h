@@ -9,8 +9,8 @@ namespace aplomb::detail {
 /// The narrowest place of the widest way between two basins.
 struct Passage {
   double clearance_mm = 0;
-  Vec3 at_mm;     ///< where it is met first, coming from basin a
-  Vec3 along{};   ///< the way's direction there, from a to b, of length 1
+  Vec3 at_mm;    ///< where it is met first, coming from basin a
+  Vec3 along{};  ///< the way's direction there, from a to b, of length 1
 };
 
 /// Follows the widest way over the contact from basin a's peak to basin b's, then again on ever finer lattices round
