@@ -23,7 +23,7 @@ struct Cavity {
   Vec3 deepest_mm;          ///< farthest from the walls
   double clearance_mm = 0;  ///< that distance
   Vec3 lowest_mm, highest_mm;
-  std::vector<Opening> openings;  ///< widest first; also those too narrow for the hole, down to 0.6 of it
+  std::vector<Opening> openings;  ///< widest first; some that are too narrow for the hole, too
 
   /// How many openings let a ball of this diameter through.
   int holes(double hole_mm) const;
@@ -47,7 +47,7 @@ struct Cavity {
 ///
 /// \pre hole_mm > 0. \return Shells first, then by height. Errors: cancelled; over_budget for a solid too large for the
 ///      lattice. \par Cost  a distance (1 to 2 us) per rho^3 / 8 of what lies within 3 rho of the outer surface, shared
-///      by the threads allowed, and 10 to 100 ms per opening.
+///      by the threads allowed, and 0.02 to 0.2 s per opening.
 Result<std::vector<Cavity>> find_cavities(const PrintedSolid& printed, double hole_mm, const Job& job = {});
 
 /// The cavities with closed surfaces of their own, lowest first. \par Cost  2 ms and O(n) each.
