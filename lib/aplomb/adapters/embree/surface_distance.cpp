@@ -237,6 +237,43 @@ double SurfaceDistance::from_triangle(Vec3 a, Vec3 b, Vec3 c, double at_most) co
   return search.least;
 }
 
+SurfaceDistance::Pinch SurfaceDistance::pinch(Vec3 point, Vec3 inward, double at_most, double least_cos) const {
+  struct Search {
+    const Impl& impl;
+    Vec3 point, inward;
+    double least_cos;
+    Pinch found;
+  };
+  Search search{*impl_, point, inward, least_cos, {at_most, no_triangle, {}}};
+  const Vec3 center = point + at_most * inward;
+  RTCPointQuery query{};
+  query.x = static_cast<float>(center.x);
+  query.y = static_cast<float>(center.y);
+  query.z = static_cast<float>(center.z);
+  query.radius = static_cast<float>(at_most * (1 + 1e-6) + impl_->slack_mm);
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  const auto visit = [](RTCPointQueryFunctionArguments* arguments) {
+    Search& s = *static_cast<Search*>(arguments->userPtr);
+    const auto& n = s.impl.discs[arguments->primID].normal;
+    if (n[0] * s.inward.x + n[1] * s.inward.y + n[2] * s.inward.z < s.least_cos) return false;
+    const Corners t = s.impl.corners(arguments->primID);
+    // Shrinks the ball to what touches the nearest point of the triangle, until it holds none (Ma, Bae and Choi 2012).
+    for (int i = 0; i < 64; ++i) {
+      const Vec3 middle = s.point + s.found.radius_mm * s.inward, nearest = at(t, closest_barycentric(middle, t));
+      const Vec3 chord = nearest - s.point;
+      const double along = dot(chord, s.inward);
+      if (!(along > 0)) return false;
+      const double radius = squared_norm(chord) / (2 * along);
+      if (!(radius < s.found.radius_mm * (1 - 1e-9))) return false;
+      s.found = {radius, arguments->primID, nearest};
+    }
+    return false;
+  };
+  rtcPointQuery(impl_->scene.get(), &query, &context, visit, &search);
+  return search.found.triangle == no_triangle ? Pinch{} : search.found;
+}
+
 Vec3 SurfaceDistance::closest_point(Vec3 point, std::uint32_t triangle) const {
   const Corners t = impl_->corners(triangle);
   return at(t, closest_barycentric(point, t));

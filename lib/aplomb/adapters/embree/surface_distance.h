@@ -33,6 +33,18 @@ class SurfaceDistance {
   /// \pre a, b, c are not collinear. \par Cost  grows with the triangles within at_most_mm of it.
   double from_triangle(Vec3 a, Vec3 b, Vec3 c, double at_most_mm) const;
 
+  /// A ball that touches a point of the surface and a triangle across the solid from it.
+  struct Pinch {
+    double radius_mm = std::numeric_limits<double>::infinity();
+    std::uint32_t triangle = no_triangle;
+    Vec3 at_mm;  ///< where it touches that triangle
+  };
+
+  /// The least ball that touches a plane at `point_mm`, lies on the side `inward` of it and touches a triangle whose
+  /// normal is within acos(least_cos) of `inward`; nothing when its radius would be `at_most_mm` or more.
+  /// \pre inward has length 1. \par Cost  grows with the triangles within at_most_mm of its centre.
+  Pinch pinch(Vec3 point_mm, Vec3 inward, double at_most_mm, double least_cos) const;
+
   /// The point of a triangle that is closest to a point.
   Vec3 closest_point(Vec3 point_mm, std::uint32_t triangle) const;
 
