@@ -48,7 +48,7 @@ Result<std::optional<Vec3>> lowest_over(const TriangleMesh& surface, const Polyg
     Box2 plan;
     for (const Vec3& corner : corners_of(t)) plan.add({corner.x, corner.y});
     if (!box.meets(plan)) continue;
-    const Result<std::optional<Vec3>> here = lowest_over(corners_of(t), region);
+    Result<std::optional<Vec3>> here = lowest_over(corners_of(t), region);
     if (!here) return here;
     if (*here && (!lowest || (*here)->z < lowest->z)) lowest = *here;
   }

@@ -56,7 +56,7 @@ class CupSearch {
   Result<void> add(const Slice& slice) {
     std::vector<Pocket> pockets = pockets_of(slice);
     for (Pocket& pocket : pockets)
-      if (const Result<void> done = connect(pocket, slice.z_mm); !done) return done;
+      if (Result<void> done = connect(pocket, slice.z_mm); !done) return done;
     pockets_ = std::move(pockets);
     outlines_ = outlines_of(slice);
     is_first_ = false;

@@ -50,6 +50,7 @@ class Ceiling {
     for (std::uint32_t t = 0; t < size(); ++t)
       if (is_flat(t)) by_root[sets.find(t)].push_back(t);
     std::vector<Facets> all;
+    all.reserve(by_root.size());
     for (auto& [root, facets] : by_root) all.push_back(std::move(facets));
     return all;
   }
