@@ -137,6 +137,7 @@ void add_remedies(Report& report, const Input& input, const JointProblem& joint,
 JudgeOptions judge_options(const StandOptions& options) {
   JudgeOptions judging = options.judge;
   judging.pose.reset();
+  judging.density_g_per_cm3 = options.density_g_per_cm3;
   for (const Pose& pose : options.poses)
     if (const StandingPose* standing = pose.standing(); standing && !judging.pose && standing->up == Vec3{0, 0, 1})
       judging.pose = *standing;

@@ -211,6 +211,7 @@ int run_validate(const Arguments& a, const Job& job) {
   const StandOptions options = stand_options(a.job, bounding_box(*mesh).size().z);
   JudgeOptions judging = options.judge;
   judging.pose = *options.poses.front().standing();
+  judging.density_g_per_cm3 = options.density_g_per_cm3;
   const auto judgement = judge(*mesh, judging, nullptr, job.part(0.1, a.job.html.empty() ? 1 : 0.7));
   if (!judgement) return report_error(judgement.error());
   const Process process = judging.rules.process();

@@ -7,9 +7,20 @@
 #include <cmath>
 #include <numbers>
 
+#include "aplomb/printability/bed_contact.h"
+#include "aplomb/printability/escape.h"
 #include "aplomb/printability/mesh_checks.h"
+#include "aplomb/printability/print_stands.h"
 #include "aplomb/printability/printed_solid.h"
 #include "aplomb/printability/remedies.h"
+#include "aplomb/printability/slices.h"
+#include "aplomb/printability/strength_ankle.h"
+#include "aplomb/printability/void_base.h"
+#include "aplomb/printability/void_bridge.h"
+#include "aplomb/printability/void_cup.h"
+#include "aplomb/printability/void_island.h"
+#include "aplomb/printability/void_slope.h"
+#include "aplomb/printability/walls.h"
 
 namespace aplomb {
 namespace {
@@ -127,10 +138,57 @@ class SolidJudge {
   Result<void> run(const Job& job) {
     if (!job.report(0, "judge")) return cancelled();
     collector_.add("mass.gained", mass_gained_percent(printed_, options_.filling));
-    return stand();
+    return stand()
+        .and_then([&] { return walls(job.part(0, 0.4)); })
+        .and_then([&] { return escape(job.part(0.4, 0.7)); })
+        .and_then([&] { return layers(job.part(0.7, 1)); });
   }
 
  private:
+  const Rules& rules() const { return options_.rules; }
+
+  Result<void> add(std::string_view id, const Result<std::vector<Place>>& places) {
+    if (!places) return tl::unexpected(places.error());
+    collector_.add(id, *places);
+    return {};
+  }
+
+  Result<void> walls(const Job& job) {
+    return add("wall.void_outer", wall_void_outer(printed_, rules(), job.part(0, 0.3)))
+        .and_then([&] { return add("wall.void_void", wall_void_void(printed_, rules(), job.part(0.3, 0.5))); })
+        .and_then([&] { return add("wall.thin", wall_thin(printed_, rules(), job.part(0.5, 1))); });
+  }
+
+  Result<void> escape(const Job& job) {
+    const auto cavities = find_cavities(printed_, rules(), job);
+    if (!cavities) return tl::unexpected(cavities.error());
+    collector_.add("void.closed", void_closed(*cavities, rules()));
+    collector_.add("void.holes", void_holes(*cavities, rules()));
+    collector_.add("void.hole_place", void_hole_place(*cavities, rules()));
+    return {};
+  }
+
+  Result<void> layers(const Job& job) {
+    const auto slices = cut_slices(printed_, rules().layer_mm, job.part(0, 0.2));
+    if (!slices) return tl::unexpected(slices.error());
+    using Measure = Result<std::vector<Place>> (*)(const PrintedSolid&, const Slices&, const Rules&, const Job&);
+    constexpr std::array<std::pair<std::string_view, Measure>, 6> measures{{{"void.bridge", measure_void_bridge},
+                                                                            {"void.slope", measure_void_slope},
+                                                                            {"void.island", measure_void_island},
+                                                                            {"void.cup", measure_void_cup},
+                                                                            {"void.base", measure_void_base},
+                                                                            {"print.stands", measure_print_stands}}};
+    for (std::size_t n = 0; n < measures.size(); ++n) {
+      const auto& [id, measure] = measures[n];
+      const double done = 0.2 + 0.1 * static_cast<double>(n);
+      if (const auto added = add(id, measure(printed_, *slices, rules(), job.part(done, done + 0.1))); !added)
+        return added;
+    }
+    collector_.add("bed.contact", measure_bed_contact(*slices, rules()));
+    return add("strength.ankle",
+               measure_strength_ankle(printed_, *slices, rules(), options_.density_g_per_cm3, job.part(0.8, 1)));
+  }
+
   Result<void> stand() {
     constexpr std::array ids{"stand.nominal", "stand.robust", "stand.trapped"};
     if (!options_.pose) {
@@ -170,6 +228,8 @@ std::string find_problem(const JudgeOptions& o) {
     return fmt::format("infill_ratio is {}; it must lie in [0, 1]", o.filling.infill_ratio);
   if (!(o.filling.skin_mm > 0 && o.filling.skin_mm <= 100))
     return fmt::format("skin_mm is {}; it must lie in (0, 100]", o.filling.skin_mm);
+  if (!(o.density_g_per_cm3 > 0 && o.density_g_per_cm3 < 30))
+    return fmt::format("density_g_per_cm3 is {}; it must lie in (0, 30)", o.density_g_per_cm3);
   return o.pose ? find_problem(*o.pose) : "";
 }
 

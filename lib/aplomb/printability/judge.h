@@ -33,6 +33,7 @@ struct JudgeOptions {
   Rules rules{Process::fdm};
   std::optional<StandingPose> pose = StandingPose{};  ///< as it is printed and stands, up = +z; none: it does not stand
   Filling filling{};
+  double density_g_per_cm3 = 1.24;  ///< in (0, 30); PLA
 };
 
 /// A sentence that names field, value and range; empty when there is nothing to say.

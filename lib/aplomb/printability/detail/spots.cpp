@@ -6,12 +6,6 @@
 
 namespace aplomb::detail {
 
-std::optional<double> mildest_limit(const Rules& rules, std::string_view id) {
-  const std::optional<Limits> limits = rules.limits(id);
-  if (!limits) return std::nullopt;
-  return limits->info ? limits->info : limits->warn ? limits->warn : limits->fail;
-}
-
 std::vector<Place> least_of_spots(const std::vector<Place>& places, double reach_mm) {
   std::vector<Vec3> points;
   points.reserve(places.size());

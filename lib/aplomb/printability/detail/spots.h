@@ -1,15 +1,11 @@
 #pragma once
 
-#include <optional>
 #include <vector>
 
+#include "aplomb/printability/detail/places.h"
 #include "aplomb/printability/finding.h"
-#include "aplomb/printability/rules.h"
 
 namespace aplomb::detail {
-
-/// The first limit that a measure that worsens meets; nothing where there is no check. \pre id names a check.
-std::optional<double> mildest_limit(const Rules& rules, std::string_view id);
 
 /// A box round one point.
 inline Box3 box_of(Vec3 point) {
