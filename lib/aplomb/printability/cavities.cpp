@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "aplomb/adapters/embree/surface_distance.h"
+#include "aplomb/mesh/detail/topology.h"
 #include "aplomb/mesh/mass_properties.h"
 #include "aplomb/printability/detail/basins.h"
 #include "aplomb/printability/detail/empty_space.h"
@@ -50,7 +51,7 @@ class CavitySearch {
   Result<void> merge_wide_open(const Job& job);
   std::vector<Cavity> cavities();
   void measure(std::vector<Cavity>& cavities, const std::map<std::uint32_t, std::size_t>& cavity_of);
-  std::uint32_t basin_beside(std::uint32_t element);
+  std::uint32_t basin_beside(std::uint32_t element) const;
   void extend(Cavity& cavity, std::uint32_t element) const;
 
   const EmptySpace& space_;
@@ -152,7 +153,7 @@ void CavitySearch::extend(Cavity& cavity, std::uint32_t element) const {
 }
 
 /// The basin that a point too narrow for one lies beside: uphill from there, along lines in empty space.
-std::uint32_t CavitySearch::basin_beside(std::uint32_t element) {
+std::uint32_t CavitySearch::basin_beside(std::uint32_t element) const {
   for (int steps = 0; steps < 4 && basins_.of(element) == Basins::none; ++steps) {
     const Vec3 point = lattice_.frame().position_mm(lattice_.index(element));
     const double clearance = lattice_.clearance_mm(element);
@@ -234,7 +235,8 @@ Cavity shell_cavity(const TriangleMesh& shell) {
   constexpr int steps = 12;
   for (int n = 0; n < steps * steps * steps; ++n) {
     const Vec3 size = cavity.box_mm.size();
-    const Vec3 share = Vec3{n / (steps * steps) + 0.5, n / steps % steps + 0.5, n % steps + 0.5} / steps;
+    const VoxelIndex cell{n / (steps * steps), n / steps % steps, n % steps};
+    const Vec3 share = Vec3{cell[0] + 0.5, cell[1] + 0.5, cell[2] + 0.5} / steps;
     const Vec3 point = cavity.box_mm.min + Vec3{share.x * size.x, share.y * size.y, share.z * size.z};
     const auto nearest = distance.closest(point);
     if (nearest.distance_mm <= cavity.clearance_mm || !distance.inside(point, nearest)) continue;

@@ -63,6 +63,7 @@ std::vector<Place> void_closed(std::span<const Cavity> cavities, const Rules& ru
   std::erase_if(closed, [&](const Cavity& cavity) { return !cavity.is_closed(hole_mm); });
   std::ranges::stable_sort(closed, std::greater<>{}, &Cavity::volume_mm3);
   std::vector<Place> places;
+  places.reserve(closed.size());
   for (const Cavity& cavity : closed) places.push_back({1, cavity.deepest_mm, cavity.box_mm});
   if (places.empty()) places.push_back({0, cavities.front().deepest_mm, cavities.front().box_mm});
   return places;

@@ -6,7 +6,7 @@
 namespace aplomb::detail {
 
 Basins::Basins(const ClearanceLattice& lattice, double least_mm, double merge_ratio)
-    : lattice_(lattice), labels_(lattice.elements(), none), sets_(lattice.elements()) {
+    : lattice_(lattice), labels_(lattice.elements(), none) {
   spread_wide(lattice.element({0, 0, 0}));
   peaks_.front().clearance_mm = std::numeric_limits<double>::infinity();
   const auto wide = static_cast<float>(lattice.wide_mm());
@@ -22,7 +22,8 @@ Basins::Basins(const ClearanceLattice& lattice, double least_mm, double merge_ra
 
 std::uint32_t Basins::add_basin(std::uint32_t element) {
   peaks_.push_back({lattice_.clearance_mm(element), lattice_.frame().position_mm(lattice_.index(element))});
-  return labels_[element] = count() - 1;
+  parents_.push_back(count() - 1);
+  return labels_[element] = parents_.back();
 }
 
 void Basins::spread_wide(std::uint32_t seed) {
@@ -48,7 +49,7 @@ void Basins::merge(std::uint32_t a, std::uint32_t b) {
   if (a == b) return;
   const std::uint32_t root = std::min(a, b);
   if (peaks_[a + b - root].clearance_mm > peaks_[root].clearance_mm) peaks_[root] = peaks_[a + b - root];
-  sets_.join(a, b);
+  parents_[std::max(a, b)] = root;
 }
 
 void Basins::flood(std::uint32_t element, double merge_ratio) {

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "aplomb/mesh/detail/topology.h"
 #include "aplomb/printability/detail/empty_space.h"
 
 namespace aplomb::detail {
@@ -29,9 +28,12 @@ class Basins {
 
   std::uint32_t count() const { return static_cast<std::uint32_t>(peaks_.size()); }
   /// The basin as it is now; basins that became one have the smallest one's name.
-  std::uint32_t find(std::uint32_t basin) { return sets_.find(basin); }
-  std::uint32_t of(std::uint32_t element) { return labels_[element] == none ? none : find(labels_[element]); }
-  bool is_root(std::uint32_t basin) { return find(basin) == basin; }
+  std::uint32_t find(std::uint32_t basin) const {
+    while (parents_[basin] != basin) basin = parents_[basin];
+    return basin;
+  }
+  std::uint32_t of(std::uint32_t element) const { return labels_[element] == none ? none : find(labels_[element]); }
+  bool is_root(std::uint32_t basin) const { return find(basin) == basin; }
   double peak_mm(std::uint32_t basin) const { return peaks_[basin].clearance_mm; }
   Vec3 peak_at_mm(std::uint32_t basin) const { return peaks_[basin].at_mm; }
   void set_peak(std::uint32_t basin, Vec3 at_mm, double clearance_mm) { peaks_[basin] = {clearance_mm, at_mm}; }
@@ -52,7 +54,7 @@ class Basins {
   const ClearanceLattice& lattice_;
   std::vector<std::uint32_t> labels_;  // per element
   std::vector<Peak> peaks_;
-  DisjointSets sets_;
+  std::vector<std::uint32_t> parents_;  // per basin: what it became one with, or itself
   std::vector<Contact> contacts_;
 };
 

@@ -64,7 +64,8 @@ struct ClearanceLattice::Sampler {
     for (int n = 0; n < size * size * size; ++n) {
       const int i = from[0] - origin[0] + n / (size * size), j = from[1] - origin[1] + n / size % size,
                 k = from[2] - origin[2] + n % size;
-      held.values[static_cast<std::size_t>((i * side + j) * side + k)] = static_cast<float>(value);
+      const int point = (i * side + j) * side + k;
+      held.values[static_cast<std::size_t>(point)] = static_cast<float>(value);
     }
   }
 };

@@ -63,7 +63,7 @@ Way widest_way(const VoxelIndex& start, Clearance&& clearance, IsEnd&& is_end) {
 }
 
 /// On the lattice, inside one basin, from a contact to near its peak.
-Way way_to_peak(const ClearanceLattice& lattice, Basins& basins, const VoxelIndex& from, std::uint32_t basin) {
+Way way_to_peak(const ClearanceLattice& lattice, const Basins& basins, const VoxelIndex& from, std::uint32_t basin) {
   const double goal = 0.95 * std::min(basins.peak_mm(basin), lattice.wide_mm());
   double widest = 0;
   const auto clearance = [&](const VoxelIndex& index) {
@@ -125,7 +125,7 @@ Passage passage_of(const Way& way, const VoxelFrame& frame) {
 
 }  // namespace
 
-Passage find_passage(const EmptySpace& space, const ClearanceLattice& lattice, Basins& basins,
+Passage find_passage(const EmptySpace& space, const ClearanceLattice& lattice, const Basins& basins,
                      const Basins::Contact& contact, double enough_mm) {
   Way way = way_to_peak(lattice, basins, contact.a, contact.basin_a);
   std::ranges::reverse(way);
@@ -149,7 +149,8 @@ Peak climb(const EmptySpace& space, Vec3 from_mm, double step_mm) {
   for (double step = step_mm; step > step_mm / 100;) {
     Peak best = peak;
     for (int n = 0; n < 27; ++n) {
-      const Vec3 point = peak.at_mm + step * Vec3{n / 9 - 1.0, n / 3 % 3 - 1.0, n % 3 - 1.0};
+      const VoxelIndex way{n / 9 - 1, n / 3 % 3 - 1, n % 3 - 1};
+      const Vec3 point = peak.at_mm + step * Vec3{double(way[0]), double(way[1]), double(way[2])};
       const auto there = space.at(point, here.triangle);
       if (there.mm > best.clearance_mm) best = {point, there.mm};
     }

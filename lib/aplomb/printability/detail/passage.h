@@ -18,7 +18,7 @@ struct Passage {
 /// Ends early with what it has when that is `enough_mm` or more.
 ///
 /// \par Cost  20 to 200 ms, the more the longer the way is narrow.
-Passage find_passage(const EmptySpace& space, const ClearanceLattice& lattice, Basins& basins,
+Passage find_passage(const EmptySpace& space, const ClearanceLattice& lattice, const Basins& basins,
                      const Basins::Contact& contact, double enough_mm);
 
 /// From a point uphill to where the clearance is largest nearby.

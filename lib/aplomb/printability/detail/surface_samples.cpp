@@ -60,7 +60,7 @@ SurfaceSamples sample_surface(const TriangleMesh& mesh, double spacing_mm, std::
     std::array<Vec3, 3> p{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
     const std::array<double, 3> sides{norm(p[1] - p[0]), norm(p[2] - p[1]), norm(p[0] - p[2])};
     const auto longest = std::ranges::max_element(sides) - sides.begin();
-    std::ranges::rotate(p, p.begin() + longest);
+    std::rotate(p.begin(), p.begin() + longest, p.end());
     if (const double own = area_mm2(mesh, t); own < s * s) {
       owed += own;
       if (owed < 0.25 * s * s && i + 1 < mesh.triangles.size()) continue;
