@@ -41,8 +41,10 @@ class Collector {
  public:
   explicit Collector(const Rules& rules) : rules_(rules) {}
 
-  /// Places, worst first. No place: there was nothing to measure.
-  void add(std::string_view id, const std::vector<Place>& places) {
+  static constexpr bool sum_of_places = true;
+
+  /// Places, worst first. No place: there was nothing to measure. The check's measure is the worst, or all together.
+  void add(std::string_view id, const std::vector<Place>& places, bool is_sum = false) {
     const CheckRule& rule = rule_of(id);
     const auto limits = rules_.limits(id);
     if (!limits) return;
@@ -51,6 +53,8 @@ class Collector {
     if (!places.empty()) {
       result.has_measure = true;
       result.measured = places.front().measured;
+      if (is_sum)
+        for (std::size_t n = 1; n < places.size(); ++n) result.measured += places[n].measured;
       result.threshold = limits->fail.value_or(limits->warn.value_or(limits->info.value_or(0)));
     }
     for (const Place& place : places)
@@ -162,7 +166,7 @@ class SolidJudge {
   Result<void> escape(const Job& job) {
     const auto cavities = find_cavities(printed_, rules(), job);
     if (!cavities) return tl::unexpected(cavities.error());
-    collector_.add("void.closed", void_closed(*cavities, rules()));
+    collector_.add("void.closed", void_closed(*cavities, rules()), Collector::sum_of_places);
     collector_.add("void.holes", void_holes(*cavities, rules()));
     collector_.add("void.hole_place", void_hole_place(*cavities, rules()));
     return {};

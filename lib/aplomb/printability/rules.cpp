@@ -59,7 +59,9 @@ constexpr std::array rules{
               a_number},
     CheckRule{"void.hole_place",
               "mm",
-              "how far the lowest hole is above the void's bottom, or the vent below its top",
+              "how far the lowest hole is above the void's bottom or the vent below its top (sla); what the farthest "
+              "holes lack "
+              "to half the void's length (powder, binder)",
               most,
               {std::nullopt, warns(2), warns(2), warns(2)}},
     CheckRule{"void.cup", "mm2", "largest suction cup", most, {std::nullopt, fails(1)}},
