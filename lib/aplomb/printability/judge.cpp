@@ -186,7 +186,7 @@ class SolidJudge {
       const auto& [id, measure] = measures[n];
       const double done = 0.2 + 0.1 * static_cast<double>(n);
       if (const auto added = add(id, measure(printed_, *slices, rules(), job.part(done, done + 0.1))); !added)
-        return added;
+        return tl::unexpected(added.error());
     }
     collector_.add("bed.contact", measure_bed_contact(*slices, rules()));
     return add("strength.ankle",
