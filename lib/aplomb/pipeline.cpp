@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "aplomb/attempt.h"
+#include "aplomb/balance/attachments.h"
 #include "aplomb/balance/resting.h"
 #include "aplomb/mesh/bodies.h"
 #include "aplomb/report/text.h"
@@ -70,6 +71,14 @@ Result<std::vector<PoseMeasure>> measure_poses(const TriangleMesh& outer, const 
   return measures;
 }
 
+void note_loose_attachments(const TriangleMesh& mesh, const std::vector<Pose>& poses, std::vector<std::string>& notes) {
+  for (const Pose& pose : poses)
+    if (const HangingPose* hanging = pose.hanging())
+      for (const auto& [at, distance] : loose_attachments(mesh, *hanging))
+        notes.push_back(fmt::format("the point ({:.6g}, {:.6g}, {:.6g}) mm to hang from is {:.3g} mm off the model",
+                                    at.x, at.y, at.z, distance));
+}
+
 /// The report of the solid as it came.
 Result<Report> begin_report(const Input& input, const StandOptions& options) {
   auto before = measure_poses(input.solid.mesh(), input.moments, options);
@@ -80,6 +89,7 @@ Result<Report> begin_report(const Input& input, const StandOptions& options) {
   set_before(report, std::move(*before), kind_of(options));
   report.repair = input.repair.steps;
   report.hints = input.notes;
+  note_loose_attachments(input.solid.mesh(), options.poses, report.hints);
   report.stage_seconds = input.stage_seconds;
   report.mesh =
       MeshFigures{input.repair.outer_unchanged, true, 0, input.solid.voids(), input.solid.mesh().triangles.size()};

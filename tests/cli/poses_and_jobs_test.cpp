@@ -26,6 +26,18 @@ TEST_F(CommandLine, HangsABeamLevelAndTheFileItWritesDoes) {
   EXPECT_EQ(text_of("stderr").rfind("Hangs level now", 0), 0u);
 }
 
+TEST_F(CommandLine, SaysWhenAPointToHangFromIsNotOnTheModel) {
+  const std::string hang = "hang " + write("beam.stl", test::box({0, 0, 0}, {40, 16, 12})) + " -o " + path("out.3mf");
+  const auto hints_from = [&](const std::string& point) {
+    run(hang + " --tilt 20deg --from " + point);
+    return text_of("stderr").find("off the model") != std::string::npos;
+  };
+  EXPECT_FALSE(hints_from("20,8,12"));
+  EXPECT_FALSE(hints_from("20,8,8"));  // inside
+  EXPECT_TRUE(hints_from("20,8,15"));
+  EXPECT_NE(text_of("stderr").find("the point (20, 8, 15) mm to hang from is 3 mm off the model"), std::string::npos);
+}
+
 TEST_F(CommandLine, RefusesToHangFromNowhereOrFromThreePoints) {
   const std::string beam = write("beam.stl", test::box({0, 0, 0}, {40, 16, 12})), to = " -o " + path("out.3mf");
   EXPECT_EQ(run("hang " + beam + to), 1);
