@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "aplomb/core/threads.h"
+#include "aplomb/printability/detail/passage.h"
 #include "aplomb/printability/escape.h"
 #include "support/shapes.h"
 #include "support/solids.h"
@@ -204,6 +205,16 @@ TEST(Cavities, do_not_depend_on_how_many_threads_look_for_them) {
     EXPECT_EQ(one.openings.at(n).at_mm, many.openings.at(n).at_mm);
     EXPECT_EQ(one.openings.at(n).diameter_mm, many.openings.at(n).diameter_mm);
   }
+}
+
+/// From a notch the clearance grows all the way to the outside and beyond: the bird of the public models hung there.
+TEST(Cavities, a_climb_that_leads_out_of_the_solid_ends_where_it_began) {
+  const TriangleMesh beam = test::box({0, 0, 0}, {40, 10, 10}), post = test::box({0, 0, 10}, {10, 10, 40});
+  const detail::EmptySpace space(printed_solid(test::solid_of(joined(beam, transformed(post, {{}, {0, 0, 1}})))));
+  const Vec3 notch{12, 5, 13};
+  const detail::Peak peak = detail::climb(space, notch, 1);
+  EXPECT_EQ(peak.at_mm, notch);
+  EXPECT_EQ(peak.clearance_mm, 2);
 }
 
 TEST(Cavities, searching_can_be_cancelled_and_is_refused_where_it_would_not_end) {

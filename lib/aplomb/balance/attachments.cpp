@@ -9,8 +9,7 @@ std::vector<LooseAttachment> loose_attachments(const TriangleMesh& mesh, const H
   const adapters::SurfaceDistance surface(rounded_to_float(mesh));
   std::vector<LooseAttachment> loose;
   for (const Vec3& point : pose.attachments_mm)
-    if (const auto nearest = surface.closest(point);
-        nearest.distance_mm > reach_mm && !surface.inside(point, nearest))
+    if (const auto nearest = surface.closest(point); nearest.distance_mm > reach_mm && !surface.inside(point, nearest))
       loose.push_back({point, nearest.distance_mm});
   return loose;
 }

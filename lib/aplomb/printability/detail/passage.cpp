@@ -123,6 +123,12 @@ Passage passage_of(const Way& way, const VoxelFrame& frame) {
   return {least, position(at), squared_norm(along) > 0 ? normalized(along) : Vec3{0, 0, 1}};
 }
 
+bool is_within(const Box3& box, Vec3 point) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (!(point[axis] >= box.min[axis] && point[axis] <= box.max[axis])) return false;
+  return true;
+}
+
 }  // namespace
 
 Passage find_passage(const EmptySpace& space, const ClearanceLattice& lattice, const Basins& basins,
@@ -154,8 +160,9 @@ Peak climb(const EmptySpace& space, Vec3 from_mm, double step_mm) {
       const auto there = space.at(point, here.triangle);
       if (there.mm > best.clearance_mm) best = {point, there.mm};
     }
-    if (best.clearance_mm > peak.clearance_mm) peak = best;
-    else step *= 0.5;
+    if (!(best.clearance_mm > peak.clearance_mm)) step *= 0.5;
+    else if (is_within(space.box(), best.at_mm)) peak = best;
+    else return {from_mm, here.mm};
   }
   return peak;
 }

@@ -21,7 +21,8 @@ struct Passage {
 Passage find_passage(const EmptySpace& space, const ClearanceLattice& lattice, const Basins& basins,
                      const Basins::Contact& contact, double enough_mm);
 
-/// From a point uphill to where the clearance is largest nearby.
+/// From a point uphill to where the clearance is largest nearby; the point itself where that leads out of the solid's
+/// box, beyond which there is no end of it.
 struct Peak {
   Vec3 at_mm;
   double clearance_mm = 0;
