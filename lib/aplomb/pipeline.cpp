@@ -309,7 +309,6 @@ Result<Report> measure_output(const TriangleMesh& written, const StandRun& run, 
   auto judgement = judge(written, judge_options(options), &run.shell->mesh, job.part(0.4, 1));
   if (!judgement) return tl::unexpected(judgement.error());
   report.judgement = std::move(*judgement);
-  report.process = options.judge.rules.process();
   if (report.carving || report.deformation) report.outcome = all_hold(report) ? Outcome::stands : Outcome::best_effort;
   return report;
 }

@@ -158,7 +158,6 @@ Result<void> write_page(const Arguments& a, const Report& report, const Input& i
   if (made && made->shell) content.after = &made->shell->mesh;
   content.report = report;
   content.judgement = report.judgement;
-  content.process = report.process;
   content.required_tip_rad = report.required_tip_rad;
   if (report.has_standing_pose()) content.standing = report.after ? *report.after : report.before;
   return write_page(a, content, job);
@@ -214,14 +213,12 @@ int run_validate(const Arguments& a, const Job& job) {
   judging.density_g_per_cm3 = options.density_g_per_cm3;
   const auto judgement = judge(*mesh, judging, nullptr, job.part(0.1, a.job.html.empty() ? 1 : 0.7));
   if (!judgement) return report_error(judgement.error());
-  const Process process = judging.rules.process();
-  say(a, to_text(*judgement, process), true);
+  say(a, to_text(*judgement), true);
   if (!a.job.report.empty())
-    if (const auto written = write_text(a.job.report, to_json(*judgement, process)); !written)
+    if (const auto written = write_text(a.job.report, to_json(*judgement)); !written)
       return report_error(written.error());
   page::PageContent content{.title = a.job.model.filename().string(), .after = &*mesh, .poses = options.poses};
   content.judgement = *judgement;
-  content.process = process;
   content.standing = standing_of(*mesh, judging.pose);
   content.required_tip_rad = judging.pose->required_tip_rad;
   if (const auto written = write_page(a, content, job.part(0.7, 1)); !written) return report_error(written.error());

@@ -54,7 +54,7 @@ std::string headline(const PageContent& content) {
   if (content.report) text = verdict(*content.report);
   if (content.judgement) {
     const bool passes = content.judgement->passes();
-    const std::string_view process = process_names[static_cast<std::size_t>(content.process)];
+    const std::string_view process = process_names[static_cast<std::size_t>(content.judgement->process)];
     text += fmt::format("{}{} ({})", text.empty() ? "" : ". ", passes ? "Prints" : "Will not print as it is", process);
   }
   return text;

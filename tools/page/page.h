@@ -6,7 +6,6 @@
 
 #include "aplomb/core/job.h"
 #include "aplomb/printability/finding.h"
-#include "aplomb/printability/rules.h"
 #include "aplomb/report/report.h"
 
 /// A run's report as one HTML page for people: the verdict first, pictures, diagrams, checks, before and after. It
@@ -20,7 +19,6 @@ struct PageContent {
   std::vector<Pose> poses{};             ///< how it is shown; one or more
   std::optional<Report> report{};        ///< of check and stand
   std::optional<Judgement> judgement{};  ///< of validate and stand
-  Process process = Process::fdm;        ///< that it was judged for
   std::optional<Standing> standing{};    ///< for the diagrams; none: it does not stand
   double required_tip_rad = 0;
 };

@@ -14,8 +14,6 @@ Box3 box_of_triangles(const TriangleMesh& mesh) {
   return box;
 }
 
-Mat3 scaled(const Mat3& m, double factor) { return {{{factor * m.rows[0], factor * m.rows[1], factor * m.rows[2]}}}; }
-
 bool is_positive(const std::optional<double>& value) { return !value || (std::isfinite(*value) && *value > 0); }
 
 std::string not_positive(const char* field, double value) {
@@ -92,7 +90,7 @@ Result<Placed> place(const TriangleMesh& mesh, const PlacementOptions& options) 
       return fail(ErrorCode::unusable_input, "the model has no height, so height_mm cannot be given to it");
     factor = *options.height_mm / height;
   }
-  linear = scaled(linear, factor);
+  linear = factor * linear;
   const Box3 box = box_of_triangles(transformed(mesh, {linear, {}}));
   const Affine3 transform{linear, {0, 0, box.empty() ? 0 : -box.min.z}};
   TriangleMesh placed = rounded_to_float(transformed(mesh, transform));

@@ -45,7 +45,7 @@ class CavitySearch {
   Result<std::vector<Cavity>> find(const Job& job);
 
  private:
-  void drop_narrow_basins();
+  Result<void> drop_narrow_basins(const Job& job);
   std::map<Pair, std::vector<Basins::Contact>> patches();
   const Passage& passage(const Basins::Contact& contact);
   Result<void> merge_wide_open(const Job& job);
@@ -62,9 +62,10 @@ class CavitySearch {
 };
 
 /// Where no ball finds room is only a part of the way to somewhere else.
-void CavitySearch::drop_narrow_basins() {
+Result<void> CavitySearch::drop_narrow_basins(const Job& job) {
   for (std::uint32_t basin = 1; basin < basins_.count(); ++basin)
     if (basins_.is_root(basin)) {
+      if (!job.report(0.1, "follow escape paths")) return cancelled();
       const double step = std::max(0.25 * lattice_.frame().voxel_mm, 0.25 * basins_.peak_mm(basin));
       const detail::Peak peak = detail::climb(space_, basins_.peak_at_mm(basin), step);
       basins_.set_peak(basin, peak.at_mm, peak.clearance_mm);
@@ -73,6 +74,7 @@ void CavitySearch::drop_narrow_basins() {
     for (const std::uint32_t basin : {contact.basin_a, contact.basin_b})
       if (basins_.find(basin) != Basins::outside && basins_.peak_mm(basins_.find(basin)) < rho_)
         basins_.merge(contact.basin_a, contact.basin_b);
+  return {};
 }
 
 /// For each two basins that touch, the widest contact of each separate place where they do, widest first.
@@ -213,7 +215,7 @@ std::vector<Cavity> CavitySearch::cavities() {
 }
 
 Result<std::vector<Cavity>> CavitySearch::find(const Job& job) {
-  drop_narrow_basins();
+  if (const auto dropped = drop_narrow_basins(job); !dropped) return tl::unexpected(dropped.error());
   if (const auto merged = merge_wide_open(job); !merged) return tl::unexpected(merged.error());
   std::vector<Cavity> found = cavities();
   const double ball = 4.0 / 3 * std::numbers::pi * rho_ * rho_ * rho_;

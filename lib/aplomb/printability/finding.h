@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "aplomb/core/vec.h"
+#include "aplomb/printability/rules.h"
 
 namespace aplomb {
 
@@ -49,6 +50,7 @@ struct CheckResult {
 
 /// What the judge says of a mesh.
 struct Judgement {
+  Process process = Process::fdm;   ///< that it was judged for
   std::vector<CheckResult> checks;  ///< every check of the process, in the order of check_rules()
   std::vector<Finding> findings;    ///< in the same order
 

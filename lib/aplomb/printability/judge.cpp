@@ -39,7 +39,7 @@ std::string with_unit(double value, const CheckRule& rule) {
 /// Collects what the checks measure and says what is wrong with it.
 class Collector {
  public:
-  explicit Collector(const Rules& rules) : rules_(rules) {}
+  explicit Collector(const Rules& rules) : rules_(rules) { judgement_.process = rules.process(); }
 
   static constexpr bool sum_of_places = true;
 

@@ -136,7 +136,7 @@ std::string to_json(const Report& report) {
   if (report.deformation) object["deformation"] = json(*report.deformation);
   if (report.wall) object["wall_mm"] = {{"required", report.wall->required_mm}, {"measured", report.wall->measured_mm}};
   if (report.mesh) object["mesh"] = json(*report.mesh);
-  if (report.judgement) object["judgement"] = Json::parse(to_json(*report.judgement, report.process));
+  if (report.judgement) object["judgement"] = Json::parse(to_json(*report.judgement));
   object["repair"] = report.repair;
   object["hints"] = report.hints;
   object["seconds"] = Json::object();

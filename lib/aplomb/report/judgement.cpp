@@ -35,11 +35,11 @@ std::string list_of(const Judgement& judgement, Verdict verdict) {
   return ids;
 }
 
-std::string headline(const Judgement& judgement, Process process) {
+std::string headline(const Judgement& judgement) {
   const auto failed = std::ranges::count(judgement.checks, Verdict::failed, &CheckResult::verdict);
   const auto warned = std::ranges::count(judgement.checks, Verdict::warned, &CheckResult::verdict);
   const std::string warnings = fmt::format("{} {}", warned, warned == 1 ? "warning" : "warnings");
-  const std::string_view name = process_names[static_cast<std::size_t>(process)];
+  const std::string_view name = process_names[static_cast<std::size_t>(judgement.process)];
   if (failed == 0) return fmt::format("Prints ({}): no check fails, {}\n", name, warnings);
   return fmt::format("Will not print as it is ({}): {} {}, {}\n", name, failed,
                      failed == 1 ? "check fails" : "checks fail", warnings);
@@ -60,8 +60,8 @@ Json json(Vec3 v) { return Json::array({v.x, v.y, v.z}); }
 
 }  // namespace
 
-std::string to_text(const Judgement& judgement, Process process) {
-  std::string text = headline(judgement, process);
+std::string to_text(const Judgement& judgement) {
+  std::string text = headline(judgement);
   for (const CheckResult& check : judgement.checks) {
     std::size_t count = 0;
     for (const Finding& finding : judgement.findings)
@@ -80,7 +80,7 @@ std::string to_text(const Judgement& judgement, Process process) {
   return text;
 }
 
-std::string to_json(const Judgement& judgement, Process process) {
+std::string to_json(const Judgement& judgement) {
   Json checks = Json::array(), findings = Json::array();
   for (const CheckResult& c : judgement.checks) {
     Json check{{"id", c.id}, {"verdict", name_of(c.verdict)}};
@@ -99,7 +99,7 @@ std::string to_json(const Judgement& judgement, Process process) {
     finding.update({{"text", f.text}, {"remedy", f.remedy}, {"waiver", f.id}});
     findings.push_back(std::move(finding));
   }
-  const Json json{{"process", process_names[static_cast<std::size_t>(process)]},
+  const Json json{{"process", process_names[static_cast<std::size_t>(judgement.process)]},
                   {"passes", judgement.passes()},
                   {"checks", std::move(checks)},
                   {"findings", std::move(findings)}};

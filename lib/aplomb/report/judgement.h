@@ -3,16 +3,15 @@
 #include <string>
 
 #include "aplomb/printability/finding.h"
-#include "aplomb/printability/rules.h"
 
 namespace aplomb {
 
 /// What the judge says, for people: whether it prints, each finding with its place and what helps (of every check the
 /// worst few), then what passed and what could not be judged. Ends with a newline.
-std::string to_text(const Judgement& judgement, Process process);
+std::string to_text(const Judgement& judgement);
 
 /// The same as JSON: `process`, `passes`, `checks` (`id`, `verdict`, `measured`, `threshold`, `unit`, `why`) and
 /// `findings` (`id`, `severity`, `measured`, `threshold`, `unit`, `at_mm`, `box_mm`, `text`, `remedy`, `waiver`).
-std::string to_json(const Judgement& judgement, Process process);
+std::string to_json(const Judgement& judgement);
 
 }  // namespace aplomb

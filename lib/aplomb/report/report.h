@@ -10,7 +10,6 @@
 #include "aplomb/balance/poses.h"
 #include "aplomb/core/stage_clock.h"
 #include "aplomb/printability/finding.h"
-#include "aplomb/printability/rules.h"
 
 namespace aplomb {
 
@@ -89,7 +88,6 @@ struct Report {
   std::optional<WallFigures> wall;
   std::optional<MeshFigures> mesh;
   std::optional<Judgement> judgement;  ///< of what was written
-  Process process = Process::fdm;      ///< that it was judged for
   std::vector<std::string> repair;     ///< what was wrong with the input and what was decided, a sentence each
   std::vector<std::string> hints;      ///< what looks like a mistake, or what would help, a sentence each
   StageSeconds stage_seconds;

@@ -262,7 +262,7 @@ std::string to_text(const Report& report) {
   else if (report.after)
     text += "before\n" + figures(report.before) + "after\n" + figures(*report.after) + work(report);
   else text += figures(report.before) + work(report);
-  if (report.judgement) text += to_text(*report.judgement, report.process);
+  if (report.judgement) text += to_text(*report.judgement);
   for (const std::string& sentence : report.repair) text += line("repair", sentence);
   for (const std::string& sentence : report.hints) text += "hint: " + sentence + "\n";
   return text;

@@ -68,13 +68,7 @@ Result<void> study_joint(const std::vector<std::string>& models, const StudyOpti
   fmt::print(
       "| model | solid deg | carved deg | asked deg | together % | bent only % | carved first % | bent only / "
       "together | carved first / together |\n|---|---|---|---|---|---|---|---|---|\n");
-  for (const std::string& named : models) {
-    const auto model = load_model(named, options);
-    if (!model) return tl::unexpected(model.error());
-    if (auto printed = print_row(*model, options); !printed) return printed;
-    std::fflush(stdout);
-  }
-  return {};
+  return for_each_model(models, options, print_row);
 }
 
 }  // namespace aplomb::bench

@@ -1,6 +1,7 @@
 #include "study_model.h"
 
 #include <cmath>
+#include <cstdio>
 #include <ctime>
 #include <filesystem>
 #include <numbers>
@@ -86,5 +87,16 @@ Moments sample_moments(const CageProblem& problem, const std::vector<Vec3>& vert
 double degrees_of(double t) { return std::atan(t) / degree; }
 
 double cpu_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+Result<void> for_each_model(const std::vector<std::string>& models, const StudyOptions& options,
+                            const std::function<Result<void>(const StudyModel&, const StudyOptions&)>& print) {
+  for (const std::string& named : models) {
+    const auto model = load_model(named, options);
+    if (!model) return tl::unexpected(model.error());
+    if (auto printed = print(*model, options); !printed) return printed;
+    std::fflush(stdout);
+  }
+  return {};
+}
 
 }  // namespace aplomb::bench

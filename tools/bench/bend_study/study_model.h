@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -53,5 +54,9 @@ double degrees_of(double t);
 
 /// CPU seconds of this process, of all threads.
 double cpu_s();
+
+/// Loads one model after the other and lets `print` write its rows. \return the first error.
+Result<void> for_each_model(const std::vector<std::string>& models, const StudyOptions& options,
+                            const std::function<Result<void>(const StudyModel&, const StudyOptions&)>& print);
 
 }  // namespace aplomb::bench

@@ -85,13 +85,7 @@ Result<void> study_surface(const std::vector<std::string>& models, const StudyOp
       "| model | triangles | bent to deg | mean mm | surface | crease rms deg | 99 % | max | uneven mean deg | 99 % | "
       "crossings | from Phong mm | balance error deg | CPU s "
       "|\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n");
-  for (const std::string& named : models) {
-    const auto model = load_model(named, options);
-    if (!model) return tl::unexpected(model.error());
-    if (auto printed = print_rows(*model, options); !printed) return printed;
-    std::fflush(stdout);
-  }
-  return {};
+  return for_each_model(models, options, print_rows);
 }
 
 }  // namespace aplomb::bench
