@@ -72,8 +72,6 @@ double shortfall_t(const ReshapedAttempt& reshaped, const JointProblem& joint) {
 
 }  // namespace
 
-RowKind kind_of(const StandOptions& options) { return options.robust ? RowKind::robust : RowKind::nominal; }
-
 Result<Attempt> attempt_carving(const Input& input, const StandOptions& options, StageClock& clock, const Job& job) {
   const double voxel = voxel_mm(options, input.solid.box());
   const auto volume =

@@ -3,7 +3,10 @@
 #include <optional>
 
 #include "aplomb/core/stage_clock.h"
-#include "aplomb/pipeline.h"
+#include "aplomb/input.h"
+#include "aplomb/report/report.h"
+#include "aplomb/shell/shell.h"
+#include "aplomb/stand_options.h"
 
 // Steps of the pipeline between a solid and its shell; stand() chooses among them.
 
@@ -37,7 +40,5 @@ struct ReshapedAttempt {
 /// in addition, twice at most. \return as Reshaper's functions and attempt_carving().
 Result<ReshapedAttempt> attempt_reshaping(const Input& input, const StandOptions& options, StageClock& clock,
                                           const Job& job);
-
-RowKind kind_of(const StandOptions& options);
 
 }  // namespace aplomb

@@ -5,56 +5,13 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <numbers>
 
+#include "aplomb/advice.h"
 #include "aplomb/attempt.h"
 #include "aplomb/balance/attachments.h"
-#include "aplomb/balance/resting.h"
-#include "aplomb/mesh/bodies.h"
-#include "aplomb/report/text.h"
 
 namespace aplomb {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
-
-std::string several_prints(const std::vector<TriangleMesh>& prints) {
-  std::string list;
-  for (std::size_t i = 0; i < prints.size() && i < 10; ++i) {
-    const Vec3 size = bounding_box(prints[i]).size();
-    list += fmt::format("{}{}: {:.4g} x {:.4g} x {:.4g} mm, {} triangles", i == 0 ? "" : "; ", i + 1, size.x, size.y,
-                        size.z, prints[i].triangles.size());
-  }
-  return fmt::format("the file holds {} prints that do not touch ({}{}): choose one with --object N", prints.size(),
-                     list, prints.size() > 10 ? "; ..." : "");
-}
-
-TriangleMesh all_objects(const MeshFile& file) {
-  TriangleMesh all;
-  for (const MeshObject& part : file.objects) all = joined(std::move(all), part.mesh);
-  return all;
-}
-
-/// Everything in the file that touches is one print. Without a number all of them are taken, and `several` says how
-/// many there are: an open surface may look like several until it is repaired.
-Result<TriangleMesh> choose_print(const MeshFile& file, std::optional<std::size_t> object, std::string& several) {
-  TriangleMesh all = all_objects(file);
-  std::vector<TriangleMesh> prints = split_prints(all);
-  if (!object) {
-    if (prints.size() > 1) several = several_prints(prints);
-    return all;
-  }
-  if (*object < 1 || *object > prints.size())
-    return fail(ErrorCode::invalid_option,
-                fmt::format("--object is {}; the file holds {} prints, counted from 1", *object, prints.size()));
-  return std::move(prints[*object - 1]);
-}
-
-/// A unit given by the user replaces the file's, which the reader has applied.
-PlacementOptions with_file_unit(PlacementOptions placement, const MeshFile& file) {
-  if (placement.unit_mm) placement.unit_mm = *placement.unit_mm / file.unit_mm;
-  return placement;
-}
 
 std::array<Region, 1> uniform_body(const Moments& body, const StandOptions& options) {
   return {Region{body, options.density_g_per_cm3, 0.02}};
@@ -109,40 +66,6 @@ CarvingFigures carving_figures(const Carving& carving, const Input& input, const
           joint.is_surplus ? BoundOf::surplus : (hangs ? BoundOf::tilt : BoundOf::tip)};
 }
 
-/// How far half the wall would go, on a coarse grid: the bound of t.
-std::optional<double> t_with_half_wall(const Input& input, const JointProblem& joint, const StandOptions& options,
-                                       const Job& job) {
-  VolumeOptions coarse{options.wall_mm / 2, options.wall_mm / 4, 0, options.memory_bytes};
-  const auto volume = voxelize(input.solid, coarse, job.part(0, 0.7));
-  if (!volume) return std::nullopt;
-  const auto bound_t = carving_bound(*volume, input.moments, joint.problem, 1e-4, job.part(0.7, 1));
-  return bound_t ? std::optional(*bound_t) : std::nullopt;
-}
-
-std::string half_wall_text(double t, const JointProblem& joint, const StandOptions& options) {
-  const double angle_deg = std::atan(t) / degree;
-  if (joint.is_surplus) return t >= 0 ? "meet every pose" : "still not meet every pose";
-  if (options.poses.front().hanging()) return fmt::format("come to about {:.1f} degrees from level", -angle_deg);
-  return fmt::format("reach about {:.1f} degrees", angle_deg);
-}
-
-void add_remedies(Report& report, const Input& input, const JointProblem& joint, const StandOptions& options,
-                  const Job& job) {
-  if (const auto t = t_with_half_wall(input, joint, options, job))
-    report.hints.push_back(
-        fmt::format("with a wall of {:.3g} mm, or printed twice as high with the wall as it is, carving could {}",
-                    options.wall_mm / 2, half_wall_text(*t, joint, options)));
-  if (report.after && report.after->pedestal)
-    report.hints.push_back(fmt::format("on a round pedestal {:.3g} mm across and {:.3g} mm thick it would stand",
-                                       2 * report.after->pedestal->radius_mm, report.after->pedestal->thickness_mm));
-  report.hints.push_back(report.has_standing_pose()
-                             ? "a wider base, or a pose that leans less, would help"
-                             : "another point to hang from, nearer to straight above the centre of mass, would help");
-  if (options.deform == Deform::never) report.hints.push_back("bending the surface a little would help: --deform auto");
-  else if (report.deformation && report.deformation->outcome == "limit")
-    report.hints.push_back("a larger --deform-limit or --trim-base would allow more");
-}
-
 /// The judge sees the print as it lies on the plate.
 JudgeOptions judge_options(const StandOptions& options) {
   JudgeOptions judging = options.judge;
@@ -174,70 +97,13 @@ Result<StandRun> finish(StandRun run, const Input& shaped, std::optional<Attempt
   if (run.shell && run.carving) report.wall = WallFigures{options.wall_mm, run.shell->wall_mm};
   if (!reaches && made) {
     clock.lap("measure");
-    add_remedies(report, shaped, made->joint, options, job);
+    add_advice(report, shaped, made->joint, options, job);
     clock.lap("advise");
   }
   return run;
 }
 
 }  // namespace
-
-Result<TriangleMesh> load_print(const std::filesystem::path& path, const InputOptions& options, const Job& job) {
-  const auto file = read_mesh(path, options.read, job);
-  if (!file) return tl::unexpected(file.error());
-  std::string several;
-  const auto print = choose_print(*file, options.object, several);
-  if (!print) return tl::unexpected(print.error());
-  return place(*print, with_file_unit(options.placement, *file)).map([](Placed placed) {
-    return std::move(placed.mesh);
-  });
-}
-
-Result<Input> load_solid(const std::filesystem::path& path, const InputOptions& options, const Job& job,
-                         const StageViewer& view) {
-  StageSeconds seconds;
-  StageClock clock(seconds);
-  const auto file = read_mesh(path, options.read, job.part(0, 0.3));
-  if (!file) return tl::unexpected(file.error());
-  std::string several;
-  const auto print = choose_print(*file, options.object, several);
-  if (!print) return tl::unexpected(print.error());
-  if (view) view("1-read", *print);
-  clock.lap("read");
-  const auto placed = place(*print, with_file_unit(options.placement, *file));
-  if (!placed) return tl::unexpected(placed.error());
-  if (view) view("2-placed", placed->mesh);
-  auto repaired = repair(placed->mesh, options.repair, job.part(0.3, 1));
-  if (!repaired) return tl::unexpected(repaired.error());
-  if (!several.empty() && split_prints(repaired->solid.mesh()).size() > 1)
-    return fail(ErrorCode::unusable_input, std::move(several));
-  if (view) view("3-solid", repaired->solid.mesh());
-  clock.lap("repair");
-  Input input{repaired->solid, repaired->solid.moments(), std::move(repaired->report), file->notes, seconds};
-  if (!options.placement.up && options.hint_at_resting)
-    if (const auto hint = resting_hint(input.solid.mesh(), input.moments, {})) input.notes.push_back(to_text(*hint));
-  return input;
-}
-
-std::string find_problem(const StandOptions& o) {
-  if (std::string problem = find_problem(o.poses); !problem.empty()) return problem;
-  if (!(o.density_g_per_cm3 > 0 && o.density_g_per_cm3 < 30))
-    return fmt::format("density_g_per_cm3 is {}; it must lie in (0, 30)", o.density_g_per_cm3);
-  if (!(o.wall_mm > 0 && o.wall_mm <= 1e4)) return fmt::format("wall_mm is {}; it must lie in (0, 10000]", o.wall_mm);
-  if (o.voxel_mm)
-    if (std::string problem = find_problem(VolumeOptions{o.wall_mm, *o.voxel_mm, o.least_void_mm, o.memory_bytes});
-        !problem.empty())
-      return problem;
-  if (std::string problem = find_problem(o.reshape); !problem.empty()) return problem;
-  if (o.deform == Deform::never && !o.reshape.regions.handles.empty())
-    return "deform is never, but a handle moves the outside; it must be auto or only";
-  if (std::string problem = find_problem(o.judge); !problem.empty()) return problem;
-  return find_problem(CarveOptions{o.aim, 0, o.least_volume_mm3});
-}
-
-double voxel_mm(const StandOptions& options, const Box3& box) {
-  return options.voxel_mm.value_or(std::min(options.wall_mm / 4, box.diagonal() / 256));
-}
 
 Result<StandRun> stand(const Input& input, const StandOptions& options, const Job& job, const StageViewer& view) {
   assert(find_problem(options).empty());

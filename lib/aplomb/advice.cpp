@@ -1,0 +1,49 @@
+#include "aplomb/advice.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace aplomb {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+/// How far half the wall would go, on a coarse grid: the bound of t.
+std::optional<double> t_with_half_wall(const Input& input, const JointProblem& joint, const StandOptions& options,
+                                       const Job& job) {
+  VolumeOptions coarse{options.wall_mm / 2, options.wall_mm / 4, 0, options.memory_bytes};
+  const auto volume = voxelize(input.solid, coarse, job.part(0, 0.7));
+  if (!volume) return std::nullopt;
+  const auto bound_t = carving_bound(*volume, input.moments, joint.problem, 1e-4, job.part(0.7, 1));
+  return bound_t ? std::optional(*bound_t) : std::nullopt;
+}
+
+std::string half_wall_text(double t, const JointProblem& joint, const StandOptions& options) {
+  const double angle_deg = std::atan(t) / degree;
+  if (joint.is_surplus) return t >= 0 ? "meet every pose" : "still not meet every pose";
+  if (options.poses.front().hanging()) return fmt::format("come to about {:.1f} degrees from level", -angle_deg);
+  return fmt::format("reach about {:.1f} degrees", angle_deg);
+}
+
+}  // namespace
+
+void add_advice(Report& report, const Input& input, const JointProblem& joint, const StandOptions& options,
+                  const Job& job) {
+  if (const auto t = t_with_half_wall(input, joint, options, job))
+    report.hints.push_back(
+        fmt::format("with a wall of {:.3g} mm, or printed twice as high with the wall as it is, carving could {}",
+                    options.wall_mm / 2, half_wall_text(*t, joint, options)));
+  if (report.after && report.after->pedestal)
+    report.hints.push_back(fmt::format("on a round pedestal {:.3g} mm across and {:.3g} mm thick it would stand",
+                                       2 * report.after->pedestal->radius_mm, report.after->pedestal->thickness_mm));
+  report.hints.push_back(report.has_standing_pose()
+                             ? "a wider base, or a pose that leans less, would help"
+                             : "another point to hang from, nearer to straight above the centre of mass, would help");
+  if (options.deform == Deform::never) report.hints.push_back("bending the surface a little would help: --deform auto");
+  else if (report.deformation && report.deformation->outcome == "limit")
+    report.hints.push_back("a larger --deform-limit or --trim-base would allow more");
+}
+
+}  // namespace aplomb

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "aplomb/balance/poses.h"
+#include "aplomb/core/job.h"
+#include "aplomb/input.h"
+#include "aplomb/report/report.h"
+#include "aplomb/stand_options.h"
+
+namespace aplomb {
+
+/// Adds to the report what would make a solid stand that carving could not: half the wall, a pedestal, a wider base.
+///
+/// \par Cost  a carving's bound on a coarse grid.
+void add_advice(Report& report, const Input& input, const JointProblem& joint, const StandOptions& options,
+                  const Job& job);
+
+}  // namespace aplomb

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "aplomb/balance/poses.h"
+#include "aplomb/carve/carve.h"
+#include "aplomb/deform/reshape.h"
+#include "aplomb/printability/judge.h"
+
+namespace aplomb {
+
+/// Whether the outside may change.
+enum class Deform {
+  never,      ///< voids only: every triangle of the outside stays
+  automatic,  ///< where no void serves
+  only,       ///< and nothing is carved
+};
+
+struct StandOptions {
+  std::vector<Pose> poses{Pose{}};  ///< all of them are to hold at once, each at its required angle; not empty
+  bool robust = false;              ///< asked of the robust tip angles instead of the nominal ones
+  CarveAim aim = CarveAim::least;
+  Deform deform = Deform::never;
+  ReshapeOptions reshape = {};          ///< its wall_mm and carves follow from the rest
+  double wall_mm = 1.6;                 ///< > 0; four lines of a 0.4 mm nozzle
+  std::optional<double> voxel_mm = {};  ///< none: at least 4 voxels in the wall and about 256 on the diagonal
+  double least_void_mm = 1;             ///< no void narrower, >= 0
+  double least_volume_mm3 = 10;         ///< no void smaller, >= 0
+  std::size_t memory_bytes = std::size_t{4} << 30;
+  double density_g_per_cm3 = 1.24;  ///< > 0; PLA
+  bool best_effort = false;         ///< make the shell also when it will not stand
+  JudgeOptions judge = {};          ///< of what is written; its pose is the first that stands as it is printed
+};
+
+/// A sentence that names field, value and range; empty when there is nothing to say.
+std::string find_problem(const StandOptions& options);
+
+/// The voxel that `options` ask for or that suits a solid of this size.
+double voxel_mm(const StandOptions& options, const Box3& box);
+
+/// The rows that `options` ask for.
+RowKind kind_of(const StandOptions& options);
+
+}  // namespace aplomb
