@@ -77,6 +77,23 @@ JudgeOptions judge_options(const StandOptions& options) {
   return judging;
 }
 
+constexpr double same_place_mm =
+    2;  // between a finding about the shell and one about the model, more where it was bent
+
+/// Judges what was written; where it fails, the model as it came too, to tell what carving did from what was there.
+Result<Judgement> judge_output(const TriangleMesh& written, const Input& input, const StandRun& run,
+                               const StandOptions& options, const Job& job) {
+  const JudgeOptions judging = judge_options(options);
+  auto judgement = judge(written, judging, &run.shell->mesh, job.part(0, 0.5));
+  if (!judgement || judgement->new_failures().empty()) return judgement;
+  const bool is_changed = run.carving || run.report.deformation;
+  const auto before = is_changed ? judge(input.solid.mesh(), judging, nullptr, job.part(0.5, 1)) : judgement;
+  if (!before) return tl::unexpected(before.error());
+  const double moved_mm = run.report.deformation ? run.report.deformation->max_mm : 0;
+  mark_inherited(*judgement, *before, same_place_mm + moved_mm);
+  return judgement;
+}
+
 /// Says of a run what was made: of the solid alone where nothing was carved.
 Result<StandRun> finish(StandRun run, const Input& shaped, std::optional<Attempt> made, const StandOptions& options,
                         StageClock& clock, const Job& job, const StageViewer& view) {
@@ -149,8 +166,8 @@ Result<Report> check(const Input& input, const StandOptions& options, const Job&
   return report;
 }
 
-Result<Report> measure_output(const TriangleMesh& written, const StandRun& run, const StandOptions& options,
-                              const Job& job) {
+Result<Report> measure_output(const TriangleMesh& written, const Input& input, const StandRun& run,
+                              const StandOptions& options, const Job& job) {
   assert(run.shell);
   if (!(written.triangles.size() == run.shell->mesh.triangles.size()))
     return fail(ErrorCode::internal, fmt::format("the file holds {} triangles instead of {}", written.triangles.size(),
@@ -172,7 +189,7 @@ Result<Report> measure_output(const TriangleMesh& written, const StandRun& run, 
   auto after = measure_poses(written, solid->solid->moments(), options);
   if (!after) return tl::unexpected(after.error());
   set_after(report, std::move(*after), kind_of(options));
-  auto judgement = judge(written, judge_options(options), &run.shell->mesh, job.part(0.4, 1));
+  auto judgement = judge_output(written, input, run, options, job.part(0.4, 1));
   if (!judgement) return tl::unexpected(judgement.error());
   report.judgement = std::move(*judgement);
   if (report.carving || report.deformation) report.outcome = all_hold(report) ? Outcome::stands : Outcome::best_effort;

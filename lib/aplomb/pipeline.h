@@ -31,7 +31,7 @@ Result<Report> check(const Input& input, const StandOptions& options, const Job&
 /// and the outcome that the file's own triangles bear out.
 ///
 /// \return internal when the file does not hold what was meant: other triangles, or a shell that is no solid.
-Result<Report> measure_output(const TriangleMesh& written, const StandRun& run, const StandOptions& options,
-                              const Job& job = {});
+Result<Report> measure_output(const TriangleMesh& written, const Input& input, const StandRun& run,
+                              const StandOptions& options, const Job& job = {});
 
 }  // namespace aplomb

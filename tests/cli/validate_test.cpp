@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "cli/command_line.h"
@@ -47,6 +48,29 @@ TEST_F(ValidateCommand, RefusesWhatMakesNoSense) {
                             " --layer 0", " --infill much"})
     EXPECT_EQ(run(sound + flags), 1) << flags;
   EXPECT_EQ(run("validate " + path("none.stl")), 2);
+}
+
+TEST_F(ValidateCommand, IsWhatStandRefusesBy) {
+  const std::string stand = "stand " + toppling() + " --tip 6deg --process sla -o " + path("out.stl");
+  EXPECT_EQ(run(stand), 6);
+  EXPECT_NE(text_of("stderr").find("nothing was written"), std::string::npos) << text_of("stderr");
+  EXPECT_FALSE(fs::exists(path("out.stl")));
+  EXPECT_EQ(run(stand + " --waive void.closed --waive void.cup --waive stand.trapped"), 0) << text_of("stderr");
+  EXPECT_TRUE(fs::remove(path("out.stl")));
+  EXPECT_EQ(run(stand + " --best-effort"), 6);
+  EXPECT_TRUE(fs::exists(path("out.stl")));
+}
+
+/// A needle on the block breaks in either; it was so before.
+TEST_F(ValidateCommand, DoesNotRefuseWhatTheModelHadAsItCame) {
+  const TriangleMesh frail = joined(test::leaning_prism(28, 28, 60, 30), test::box({27, -2.5, 55}, {32, 2.5, 120}));
+  const std::string stand =
+      "stand " + write("frail.stl", frail) + " --tip 4deg --waive void.bridge -o " + path("out.stl");
+  EXPECT_EQ(run(stand + " --report " + path("r.json")), 0) << text_of("stderr");
+  const auto findings = nlohmann::json::parse(text_of("r.json")).at("judgement").at("findings");
+  EXPECT_TRUE(std::ranges::any_of(findings, [](const auto& f) {
+    return f.at("id") == "strength.ankle" && f.at("severity") == "fail" && f.contains("in_input");
+  })) << findings;
 }
 
 }  // namespace

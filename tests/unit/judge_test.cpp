@@ -108,6 +108,46 @@ TEST(Judge, WeighsWhatStaysInClosedVoids) {
   EXPECT_GT(empty, full + 3);
 }
 
+TEST(Judge, FindsNothingTrappedWhereThereIsNoVoid) {
+  EXPECT_FALSE(result_of(judged(box({0, 0, 0}, {5, 5, 100}), {Rules(Process::sla)}), "stand.trapped").has_measure);
+}
+
+Finding finding_at(const char* id, Severity severity, Vec3 at_mm) {
+  Finding finding;
+  finding.id = id;
+  finding.severity = severity;
+  finding.measured = 3;
+  finding.box_mm.add(at_mm);
+  return finding;
+}
+
+TEST(Inherited, IsWhatTheModelHadAtThatPlaceAsSevere) {
+  Judgement input, made;
+  input.findings = {finding_at("wall.thin", Severity::warn, {0, 0, 0}),
+                    finding_at("strength.ankle", Severity::fail, {0, 0, 9})};
+  made.findings = {finding_at("wall.thin", Severity::warn, {0, 0, 1.9}),       // near enough
+                   finding_at("wall.thin", Severity::fail, {0, 0, 1}),         // worse than it was
+                   finding_at("void.island", Severity::fail, {0, 0, 0}),       // another check
+                   finding_at("strength.ankle", Severity::fail, {0, 0, 9}),    // the same
+                   finding_at("strength.ankle", Severity::fail, {0, 0, 20})};  // elsewhere
+  mark_inherited(made, input, 2);
+  std::vector<bool> inherited;
+  for (const Finding& f : made.findings) inherited.push_back(f.in_input.has_value());
+  EXPECT_EQ(inherited, (std::vector<bool>{true, false, false, true, false}));
+  EXPECT_EQ(made.new_failures(), (std::vector<std::string>{"wall.thin", "void.island", "strength.ankle"}));
+  made.checks = {{"void.island", Verdict::waived, true, 3, 0, {}}};
+  EXPECT_EQ(made.new_failures(), (std::vector<std::string>{"wall.thin", "strength.ankle"}));
+}
+
+TEST(Inherited, IsAllOfAFindingAboutTheWholeModel) {
+  Judgement input, made;
+  input.findings = {finding_at("mesh.manifold", Severity::fail, {})};
+  input.findings.front().box_mm = {};
+  made.findings = {finding_at("mesh.manifold", Severity::fail, {50, 0, 0})};
+  mark_inherited(made, input, 0);
+  EXPECT_TRUE(made.new_failures().empty());
+}
+
 /// PRINTABILITY's model of a spherical void in a sparse print: f R^3 = (1 - f) ((R + t)^3 - R^3).
 TEST(Judge, TurnsItsVerdictOnMassAtTheBreakEvenOfASphere) {
   for (const double f : {0.15, 0.4}) {

@@ -127,7 +127,7 @@ TEST(StandRun, MakesABeamHangLevelByItsFinalMesh) {
   StandOptions options{.poses = {hanging_from({{21, 8, 12}}, 2)}, .wall_mm = 1.6, .voxel_mm = 0.8};
   const StandRun run = stand(input, options).value();
   ASSERT_TRUE(run.shell);
-  const Report report = measure_output(run.shell->mesh, run, options).value();
+  const Report report = measure_output(run.shell->mesh, input, run, options).value();
   EXPECT_EQ(report.outcome, Outcome::stands);
   const Vec3 com = moments(run.shell->mesh).centroid_mm();
   const double tilt = std::atan2(std::hypot(com.x - 21, com.y - 8), 12 - com.z);
@@ -148,7 +148,7 @@ TEST(StandRun, MakesALeaningBlockStandOnBothItsFacesByItsFinalMesh) {
       .voxel_mm = 0.8};
   const StandRun run = stand(input, options).value();
   ASSERT_TRUE(run.shell);
-  const Report report = measure_output(run.shell->mesh, run, options).value();
+  const Report report = measure_output(run.shell->mesh, input, run, options).value();
   EXPECT_EQ(report.outcome, Outcome::stands);
   const Vec3 com = moments(run.shell->mesh).centroid_mm();
   for (const std::size_t i : {0u, 1u}) {  // the base is 30 x 24, around x = 0 below and 12 above

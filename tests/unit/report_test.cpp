@@ -45,6 +45,15 @@ Report full_report() {
   return report;
 }
 
+TEST(ReportText, TellsABestEffortFromWhatWasAskedForByItsDigits) {
+  Report report = full_report();
+  report.outcome = Outcome::best_effort;
+  report.after->stability.tip_rad = 9.986 * degree;
+  EXPECT_TRUE(verdict(report).starts_with("Cannot reach 10.0 degrees: 9.986 degrees at best")) << verdict(report);
+  report.after->stability.tip_rad = 7.86 * degree;
+  EXPECT_TRUE(verdict(report).starts_with("Cannot reach 10.0 degrees: 7.9 degrees at best")) << verdict(report);
+}
+
 TEST(ReportJson, HasEveryKeyThatIsPromised) {
   const Json json = Json::parse(to_json(full_report()));
   for (const char* key : {"outcome", "before", "after", "carving", "wall_mm", "mesh", "repair", "seconds",

@@ -109,9 +109,9 @@ Result<void> publish(Report& report, const Arguments& a) {
   return a.job.report.empty() ? Result<void>{} : write_text(a.job.report, to_json(report));
 }
 
-/// Writes the shell, reads it back and measures what the file holds.
-Result<Report> write_and_measure(const StandRun& made, const Arguments& a, const StandOptions& options,
-                                 const Job& job) {
+/// Measures what the file of the shell holds, and writes it where it prints or the best effort was asked for.
+Result<Report> measure_and_write(const StandRun& made, const Input& input, const Arguments& a,
+                                 const StandOptions& options, const Job& job) {
   const std::filesystem::path& output = a.job.output;
   const MeshFormat format = output == "-" ? MeshFormat::stl : *format_of(output);
   auto bytes = encode_mesh(made.shell->mesh, format, WriteOptions{output.stem().string(), {}}, job.part(0, 0.4));
@@ -119,8 +119,15 @@ Result<Report> write_and_measure(const StandRun& made, const Arguments& a, const
   const auto back =
       read_mesh(*bytes, output == "-" ? "standard output.stl" : output.filename().string(), {}, job.part(0.4, 0.6));
   if (!back) return tl::unexpected(back.error());
-  auto report = measure_output(rounded_to_float(back->objects.front().mesh), made, options, job.part(0.6, 1));
+  auto report = measure_output(rounded_to_float(back->objects.front().mesh), input, made, options, job.part(0.6, 1));
   if (!report) return report;
+  if (const auto failures = report->judgement->new_failures(); !failures.empty() && !options.best_effort) {
+    report->hints.push_back(fmt::format(
+        "nothing was written, for what carving makes of it would not print: {0}; --best-effort writes it all the same, "
+        "and --waive {1} accepts a finding",
+        fmt::join(failures, ", "), failures.front()));
+    return report;
+  }
   if (const auto written = write_file_atomically(output, *bytes, remember_temp_file); !written)
     return tl::unexpected(written.error());
   return report;
@@ -171,7 +178,7 @@ int run_stand(const Arguments& a, const Input& input, const StandOptions& option
   if (writes) {
     StageSeconds seconds = made->report.stage_seconds;
     StageClock clock(seconds);
-    auto measured = write_and_measure(*made, a, options, job.part(0.8, 0.9));
+    auto measured = measure_and_write(*made, input, a, options, job.part(0.8, 0.9));
     if (!measured) return report_error(measured.error());
     clock.lap("write");
     report = std::move(*measured);
@@ -182,7 +189,9 @@ int run_stand(const Arguments& a, const Input& input, const StandOptions& option
   if (const auto paged = write_page(a, report, input, writes ? &*made : nullptr, options, job.part(0.95, 1)); !paged)
     return report_error(paged.error());
   if (const auto published = publish(report, a); !published) return report_error(published.error());
-  return report.outcome == Outcome::best_effort ? Exit::cannot_stand : Exit::stands;
+  if (report.outcome == Outcome::best_effort) return Exit::cannot_stand;
+  const bool is_spoilt = report.judgement && !report.judgement->new_failures().empty();
+  return is_spoilt ? Exit::does_not_print : Exit::stands;
 }
 
 int run_check(const Arguments& a, const Input& input, const StandOptions& options, const Job& job) {

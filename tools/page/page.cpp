@@ -92,8 +92,9 @@ std::string findings(const Judgement& judgement) {
   for (const Finding& f : judgement.findings) {
     const auto place = f.box_mm.empty() ? std::string("whole model")
                                         : fmt::format("({:.1f}, {:.1f}, {:.1f}) mm", f.at_mm.x, f.at_mm.y, f.at_mm.z);
-    rows += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", escaped(f.id), escaped(f.text),
-                        place, escaped(f.remedy));
+    const std::string_view as_it_came = f.in_input ? "; the model as it came has it, too" : "";
+    rows += fmt::format("<tr><td>{}</td><td>{}{}</td><td>{}</td><td>{}</td></tr>\n", escaped(f.id), escaped(f.text),
+                        as_it_came, place, escaped(f.remedy));
   }
   return "<h2>What is in the way</h2>\n<table><thead><tr><th>check</th><th>found</th><th>where</th><th>what "
          "helps</th></tr></thead><tbody>\n" +

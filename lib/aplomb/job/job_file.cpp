@@ -3,109 +3,195 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
 #include <span>
 
-#include "aplomb/job/detail/fields.h"
+#include "aplomb/job/detail/degrees.h"
+#include "aplomb/job/detail/job_table.h"
 
 namespace aplomb {
 namespace {
 
-using detail::Json;
-using detail::Reader;
-using detail::Writer;
+using Json = nlohmann::ordered_json;
+using detail::degree;
+using detail::degrees_of;
 namespace fs = std::filesystem;
 
-constexpr std::array<const char*, 3> aim_names{"least", "light", "stable"};  // in CarveAim's order
-constexpr std::array<const char*, 3> deform_names{"never", "auto", "only"};  // in Deform's order
+constexpr std::array<const char*, 6> up_names{"x", "y", "z", "-x", "-y", "-z"};  // in UpAxis' order
 
-template <class Visitor, class Radius>
-void visit_ball(const Visitor& v, Vec3& center_mm, Radius& radius_mm) {
-  v.point("at_mm", center_mm);
-  v.value("radius_mm", radius_mm);
+template <class Names>
+std::size_t index_of(const Names& names, const std::string& name) {
+  std::size_t i = 0;
+  while (i + 1 < names.size() && name != names[i]) ++i;
+  return i;
 }
 
-template <class Visitor>
-void visit_regions(const Visitor& v, Regions& regions) {
-  const auto visit_region = [](const Visitor& b, BallRegion& at) { visit_ball(b, at.center_mm, at.radius_mm); };
-  v.list("stiffness", regions.stiffened, [&](const Visitor& s, StiffRegion& stiff) {
-    visit_region(s, stiff.at);
-    s.value("ratio", stiff.ratio);
-  });
-  v.list("keep", regions.kept, visit_region);
-  v.list("handles", regions.handles, [&](const Visitor& h, Handle& handle) {
-    visit_region(h, handle.at);
-    h.point("to_mm", handle.to_mm);
-    h.turns("turn_deg", handle.turns);
-    h.value("scale", handle.scale_ratio);
-  });
-  v.list("lock", regions.locked, visit_region);
+Vec3 axis(std::size_t up_name) {
+  Vec3 v;
+  v[static_cast<int>(up_name % 3)] = up_name < 3 ? 1 : -1;
+  return v;
 }
 
-template <class Visitor>
-void visit_pose(const Visitor& v, JobPose& job) {
-  v.value("name", job.pose.name);
-  if (auto* standing = std::get_if<StandingPose>(&job.pose.way))
-    v.group("stand", [&](const Visitor& s) {
-      s.direction("up", standing->up);
-      s.angle("tip_deg", standing->required_tip_rad);
-      s.value("contact_height_mm", standing->contact_height_mm);
-      s.value("xy_error_mm", standing->xy_error_mm);
-      s.list("contacts", job.contacts,
-             [](const Visitor& c, JobContact& contact) { visit_ball(c, contact.center_mm, contact.radius_mm); });
-    });
-  else if (auto* hanging = std::get_if<HangingPose>(&job.pose.way))
-    v.group("hang", [&](const Visitor& h) {
-      h.direction("up", hanging->up);
-      h.points("from_mm", hanging->attachments_mm);
-      h.angle("tilt_deg", hanging->required_tilt_rad);
-      h.value("least_drop_mm", hanging->least_drop_mm);
-    });
-}
+Vec3 vec_of(const Json& json) { return {json[0].get<double>(), json[1].get<double>(), json[2].get<double>()}; }
+Json json_of(Vec3 v) { return Json::array({v.x, v.y, v.z}); }
 
-/// The one table of what a job says.
-template <class Visitor>
-void visit_job(const Visitor& v, JobFile& job) {
-  v.path("model", job.model);
-  v.path("output", job.output);
-  v.path("report", job.report);
-  v.path("dump", job.dump);
-  v.path("html", job.html);
-  v.path("picture", job.picture);
-  v.group("place", [&](const Visitor& place) {
-    place.value("object", job.input.object);
-    place.up("up", job.input.placement.up);
-    place.turns("rotate_deg", job.input.placement.turns);
-    place.value("unit_mm", job.input.placement.unit_mm);
-    place.value("scale", job.input.placement.scale);
-    place.value("height_mm", job.input.placement.height_mm);
-  });
-  v.value("repair_force", job.input.repair.insist);
-  v.poses("poses", job.poses, [](const Visitor& p, JobPose& pose) { visit_pose(p, pose); });
-  v.value("robust", job.options.robust);
-  v.name("aim", aim_names, job.options.aim);
-  v.name("deform", deform_names, job.options.deform);
-  v.value("deform_limit_percent", job.options.reshape.most_mean_percent);
-  v.value("trim_base_mm", job.options.reshape.most_trim_mm);
-  visit_regions(v, job.options.reshape.regions);
-  v.name("process", process_names, job.rules.process);
-  v.preset("process", job.options.wall_mm, wall_of_process);
-  v.value("wall_mm", job.options.wall_mm);
-  v.value("voxel_mm", job.options.voxel_mm);
-  v.value("least_void_mm", job.options.least_void_mm);
-  v.value("least_volume_mm3", job.options.least_volume_mm3);
-  v.value("best_effort", job.options.best_effort);
-  v.preset("material", job.options.density_g_per_cm3, density_of_material);
-  v.value("density_g_per_cm3", job.options.density_g_per_cm3);
-  v.memory("memory_mb", job.options.memory_bytes);
-  v.value("threads", job.threads);
-  v.value("layer_mm", job.rules.layer_mm);
-  v.value("infill_percent", job.infill_percent);
-  v.list("limits", job.rules.limits, [](const Visitor& l, RuleLimit& limit) {
-    l.value("check", limit.id);
-    l.value("limit", limit.value);
-  });
-  v.value("waive", job.rules.waived);
-}
+/// Puts what the JSON has into the fields it is shown. \pre The JSON has passed the schema.
+class Reader {
+ public:
+  Reader(const Json& json, const fs::path& folder) : json_(json), folder_(folder) {}
+
+  template <class T>
+  void value(const char* key, T& field) const {
+    if (const auto at = json_.find(key); at != json_.end()) field = at->template get<T>();
+  }
+  template <class T>
+  void value(const char* key, std::optional<T>& field) const {
+    if (const auto at = json_.find(key); at != json_.end()) field = at->template get<T>();
+  }
+  void path(const char* key, fs::path& field) const {
+    if (const auto at = json_.find(key); at != json_.end()) field = at->get<std::string>();
+    if (!field.empty() && field != "-" && field.is_relative() && json_.contains(key)) field = folder_ / field;
+  }
+  void angle(const char* key, double& field_rad) const {
+    if (const auto at = json_.find(key); at != json_.end()) field_rad = at->get<double>() * degree;
+  }
+  void turns(const char* key, std::vector<AxisTurn>& field) const {
+    if (const auto at = json_.find(key); at != json_.end()) field = turns_about_xyz(degree * vec_of(*at));
+  }
+  void direction(const char* key, Vec3& field) const {
+    const auto at = json_.find(key);
+    if (at == json_.end()) return;
+    field = at->is_string() ? axis(index_of(up_names, at->get<std::string>())) : vec_of(*at);
+    if (const double length = norm(field); length > 0 && std::abs(length - 1) > 1e-12) field = field / length;
+  }
+  void up(const char* key, std::optional<UpAxis>& field) const {
+    if (const auto at = json_.find(key); at != json_.end()) field = up_axis_named(at->get<std::string>());
+  }
+  template <class Enum, class Names>
+  void name(const char* key, const Names& names, Enum& field) const {
+    if (const auto at = json_.find(key); at != json_.end())
+      field = static_cast<Enum>(index_of(names, at->get<std::string>()));
+  }
+  void memory(const char* key, std::size_t& field_bytes) const {
+    if (const auto at = json_.find(key); at != json_.end())
+      field_bytes = static_cast<std::size_t>(std::llround(at->get<double>() * 1e6));
+  }
+  void preset(const char* key, double& field, std::optional<double> (*named)(std::string_view)) const {
+    if (const auto at = json_.find(key); at != json_.end()) field = named(at->get<std::string>()).value_or(field);
+  }
+  template <class Point>
+  void point(const char* key, Point& field) const {
+    if (const auto at = json_.find(key); at != json_.end()) field = vec_of(*at);
+  }
+  void points(const char* key, std::vector<Vec3>& field) const {
+    if (const auto at = json_.find(key); at != json_.end())
+      for (const Json& point : *at) field.push_back(vec_of(point));
+  }
+  template <class Item, class Visit>
+  void list(const char* key, std::vector<Item>& field, const Visit& visit) const {
+    if (const auto at = json_.find(key); at != json_.end())
+      for (const Json& item : *at) visit(Reader(item, folder_), field.emplace_back());
+  }
+  template <class Visit>
+  void group(const char* key, const Visit& visit) const {
+    if (const auto at = json_.find(key); at != json_.end()) visit(Reader(*at, folder_));
+  }
+  template <class VisitPose>
+  void poses(const char* key, std::vector<JobPose>& field, const VisitPose& visit) const {
+    const auto at = json_.find(key);
+    if (at == json_.end()) return;
+    field.clear();
+    for (const Json& pose : *at) {
+      field.emplace_back();
+      if (pose.contains("hang")) field.back().pose.way = HangingPose{};
+      visit(Reader(pose, folder_), field.back());
+    }
+  }
+
+ private:
+  const Json& json_;
+  const fs::path& folder_;
+};
+
+/// Puts the fields it is shown into JSON; what is not set has no key.
+class Writer {
+ public:
+  Writer(Json& json, const fs::path& folder) : json_(json), folder_(folder) {}
+
+  template <class T>
+  void value(const char* key, const T& field) const {
+    json_[key] = field;
+  }
+  void value(const char* key, const std::string& field) const {
+    if (!field.empty()) json_[key] = field;
+  }
+  template <class T>
+  void value(const char* key, const std::optional<T>& field) const {
+    if (field) json_[key] = *field;
+  }
+  void path(const char* key, const fs::path& field) const {
+    if (field.empty()) return;
+    json_[key] = field == "-" ? "-" : fs::proximate(fs::absolute(field), fs::absolute(folder_)).generic_string();
+  }
+  void angle(const char* key, double field_rad) const { json_[key] = degrees_of(field_rad); }
+  void turns(const char* key, const std::vector<AxisTurn>& field) const {
+    if (field.size() != 3) return;
+    json_[key] = Json::array();
+    for (const AxisTurn& turn : field) json_[key].push_back(degrees_of(turn.angle_rad));
+  }
+  void direction(const char* key, Vec3 field) const {
+    for (std::size_t i = 0; i < up_names.size(); ++i)
+      if (field == axis(i)) return void(json_[key] = up_names[i]);
+    json_[key] = json_of(field);
+  }
+  void up(const char* key, std::optional<UpAxis> field) const {
+    if (field) json_[key] = up_names[static_cast<std::size_t>(*field)];
+  }
+  template <class Enum, class Names>
+  void name(const char* key, const Names& names, Enum field) const {
+    json_[key] = names[static_cast<std::size_t>(field)];
+  }
+  void memory(const char* key, std::size_t field_bytes) const { json_[key] = static_cast<double>(field_bytes) / 1e6; }
+  void preset(const char*, double, std::optional<double> (*)(std::string_view)) const {}  // its number is written
+  void point(const char* key, Vec3 field) const { json_[key] = json_of(field); }
+  void point(const char* key, const std::optional<Vec3>& field) const {
+    if (field) json_[key] = json_of(*field);
+  }
+  void points(const char* key, const std::vector<Vec3>& field) const {
+    json_[key] = Json::array();
+    for (const Vec3& point : field) json_[key].push_back(json_of(point));
+  }
+  template <class Item, class Visit>
+  void list(const char* key, std::vector<Item>& field, const Visit& visit) const {
+    if (field.empty()) return;
+    json_[key] = Json::array();
+    for (Item& item : field) {
+      Json inner = Json::object();
+      visit(Writer(inner, folder_), item);
+      json_[key].push_back(std::move(inner));
+    }
+  }
+  template <class Visit>
+  void group(const char* key, const Visit& visit) const {
+    Json inner = Json::object();
+    visit(Writer(inner, folder_));
+    if (!inner.empty()) json_[key] = std::move(inner);
+  }
+  template <class VisitPose>
+  void poses(const char* key, std::vector<JobPose>& field, const VisitPose& visit) const {
+    json_[key] = Json::array();
+    for (JobPose& pose : field) {
+      Json inner = Json::object();
+      visit(Writer(inner, folder_), pose);
+      json_[key].push_back(std::move(inner));
+    }
+  }
+
+ private:
+  Json& json_;
+  const fs::path& folder_;
+};
 
 }  // namespace
 
@@ -120,7 +206,7 @@ Result<JobFile> parse_job(std::string_view text, const fs::path& folder) {
   if (std::string problem = find_schema_problem(text); !problem.empty())
     return fail(ErrorCode::invalid_option, std::move(problem));
   JobFile job;
-  visit_job(Reader(json, folder), job);
+  detail::visit_job(Reader(json, folder), job);
   job.input.read.memory_bytes = job.options.memory_bytes;
   for (std::size_t i = 0; i < job.poses.size(); ++i)
     if (std::string problem = find_problem(std::span(&job.poses[i].pose, 1)); !problem.empty())
@@ -136,7 +222,7 @@ Result<JobFile> parse_job(std::string_view text, const fs::path& folder) {
 std::string to_json(const JobFile& job, const fs::path& folder) {
   Json json{{"aplomb_job", 1}};
   JobFile shown = job;  // one table of fields for both ways
-  visit_job(Writer(json, folder), shown);
+  detail::visit_job(Writer(json, folder), shown);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,6 +29,8 @@ struct Finding {
   Box3 box_mm;           ///< all of it; empty where it is the whole model
   std::string text;      ///< a sentence: what is wrong, with numbers
   std::string remedy;    ///< a sentence: what helps
+  /// What the check measured there before anything was carved or bent, where it was found then too: mark_inherited().
+  std::optional<double> in_input{};
 };
 
 /// What came of one check.
@@ -56,6 +59,12 @@ struct Judgement {
 
   /// No check failed that was not waived.
   bool passes() const;
+  /// Checks that fail, not waived, at places where they did not in the input.
+  std::vector<std::string> new_failures() const;
 };
+
+/// Notes which findings about what was made of a model are findings about the model as it came: those that a check
+/// made there too, as severe or more, with boxes that come within `reach_mm` of each other (or the whole model).
+void mark_inherited(Judgement& made, const Judgement& input, double reach_mm);
 
 }  // namespace aplomb

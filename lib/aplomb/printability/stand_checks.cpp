@@ -54,10 +54,13 @@ Result<StandMeasures> measure_stand(const PrintedSolid& printed, const StandingP
   if (trapped_ratio > 0)
     for (const TriangleMesh& inner : printed.voids)
       body.push_back({-1 * moments(inner), trapped_ratio, trapped_error_ratio});
+  StandMeasures measures{
+      tip_place(*empty, empty->stability.tip_rad), tip_place(*empty, empty->stability.robust_tip_rad), {}};
+  if (printed.voids.empty()) return measures;
   const auto full = measure_standing(printed.solid.mesh(), body, pose);
   if (!full) return tl::unexpected(full.error());
-  return StandMeasures{tip_place(*empty, empty->stability.tip_rad), tip_place(*empty, empty->stability.robust_tip_rad),
-                       tip_place(*full, full->stability.tip_rad)};
+  measures.trapped = tip_place(*full, full->stability.tip_rad);
+  return measures;
 }
 
 std::vector<Place> mass_gained_percent(const PrintedSolid& printed, const Filling& filling) {

@@ -13,7 +13,7 @@ namespace aplomb {
 struct StandMeasures {
   std::vector<Place> nominal;  ///< tip angle, degrees
   std::vector<Place> robust;   ///< at the worst of the tolerances, degrees
-  std::vector<Place> trapped;  ///< with its closed voids full, degrees
+  std::vector<Place> trapped;  ///< with its closed voids full, degrees; none without voids
 };
 
 /// \param trapped_ratio  density of what stays in closed voids, of the printed material's. \pre in [0, 10].

@@ -51,9 +51,14 @@ std::string place_of(const Finding& finding) {
   return fmt::format("at ({:.1f}, {:.1f}, {:.1f}) mm; ", p.x, p.y, p.z);
 }
 
+std::string in_input_of(const Finding& finding) {
+  if (!finding.in_input) return "";
+  return fmt::format("the model as it came has it, too ({:.4g} {}); ", *finding.in_input, unit_of(finding.id));
+}
+
 std::string text_of(const Finding& finding, bool is_waived) {
-  return fmt::format("  {:<7}{:<16}{}\n  {:<23}{}{}\n", is_waived ? "waived" : name_of(finding.severity), finding.id,
-                     finding.text, "", place_of(finding), finding.remedy);
+  return fmt::format("  {:<7}{:<16}{}\n  {:<23}{}{}{}\n", is_waived ? "waived" : name_of(finding.severity), finding.id,
+                     finding.text, "", place_of(finding), in_input_of(finding), finding.remedy);
 }
 
 Json json(Vec3 v) { return Json::array({v.x, v.y, v.z}); }
@@ -96,11 +101,13 @@ std::string to_json(const Judgement& judgement) {
                  {"unit", unit_of(f.id)}};
     if (!f.box_mm.empty())
       finding.update({{"at_mm", json(f.at_mm)}, {"box_mm", Json::array({json(f.box_mm.min), json(f.box_mm.max)})}});
+    if (f.in_input) finding["in_input"] = *f.in_input;
     finding.update({{"text", f.text}, {"remedy", f.remedy}, {"waiver", f.id}});
     findings.push_back(std::move(finding));
   }
   const Json json{{"process", process_names[static_cast<std::size_t>(judgement.process)]},
                   {"passes", judgement.passes()},
+                  {"new_failures", judgement.new_failures()},
                   {"checks", std::move(checks)},
                   {"findings", std::move(findings)}};
   return json.dump(2) + "\n";

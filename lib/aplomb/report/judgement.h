@@ -10,8 +10,9 @@ namespace aplomb {
 /// worst few), then what passed and what could not be judged. Ends with a newline.
 std::string to_text(const Judgement& judgement);
 
-/// The same as JSON: `process`, `passes`, `checks` (`id`, `verdict`, `measured`, `threshold`, `unit`, `why`) and
-/// `findings` (`id`, `severity`, `measured`, `threshold`, `unit`, `at_mm`, `box_mm`, `text`, `remedy`, `waiver`).
+/// The same as JSON: `process`, `passes`, `new_failures` (ids), `checks` (`id`, `verdict`, `measured`, `threshold`,
+/// `unit`, `why`) and `findings` (`id`, `severity`, `measured`, `threshold`, `unit`, `at_mm`, `box_mm`, `in_input`,
+/// `text`, `remedy`, `waiver`).
 std::string to_json(const Judgement& judgement);
 
 }  // namespace aplomb

@@ -224,6 +224,13 @@ bool is_plain(const Report& report) {
   return report.poses.empty() || (report.poses.size() == 1 && report.poses.front().pose.standing());
 }
 
+/// An angle below the one asked for, in as many digits as tell them apart.
+std::string short_of(double angle_rad, double asked_rad) {
+  const std::string angle = degrees(angle_rad);
+  if (angle != degrees(asked_rad)) return angle + " degrees";
+  return number(angle_rad * 180 / std::numbers::pi, 3) + " degrees";
+}
+
 }  // namespace
 
 std::string direction_word(Vec3 direction) {
@@ -246,8 +253,8 @@ std::string verdict(const Report& report) {
       return "Stands now: " + angle + " (" + weakest(now) + "; " + asked + " asked, " +
              degrees(report.before.stability.tip_rad) + " before)";
     case Outcome::best_effort:
-      return "Cannot reach " + asked + " degrees: " + angle + " at best (" + weakest(now) + "; " +
-             degrees(report.before.stability.tip_rad) + " before)";
+      return "Cannot reach " + asked + " degrees: " + short_of(now.tip_rad, report.required_tip_rad) + " at best (" +
+             weakest(now) + "; " + degrees(report.before.stability.tip_rad) + " before)";
     case Outcome::falls:
       break;
   }
