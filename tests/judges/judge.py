@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Lets programs by others judge a shell: judge.py manifold SHELL, judge.py prusaslicer SHELL --report JSON, or
-judge.py poses SHELL --report JSON --table EXE [--contact-height-mm H].
+judge.py poses SHELL --report JSON --table EXE [--contact-height-mm H], or judge.py layers SHELL --validation JSON --raster EXE.
 
 SHELL is a 3MF or binary STL as Aplomb writes it. Every judge prints what it measured and ends with 1 when the shell
 does not hold what it promises.
@@ -15,6 +15,7 @@ import sys
 import tempfile
 
 import gcode
+import layers
 import shells
 import void_core
 
@@ -22,6 +23,8 @@ HERE = pathlib.Path(__file__).resolve().parent
 LAYER_MM = 0.1  # beads are round where they meet air: at 0.2 mm a wall of 1.6 mm lacks another 1.5 %
 FILAMENT_MM = 1.75
 BED_CENTRE_MM = 500
+VALIDATED_LAYER_MM = 0.2  # the default of `aplomb validate`
+LEAST_ISLAND_MM2 = 0.1  # smaller ones are bumps to it
 SLICING = [
     "--fill-pattern", "rectilinear", "--fill-density", "100%", "--filament-diameter", str(FILAMENT_MM),
     "--nozzle-diameter", "0.4", "--layer-height", str(LAYER_MM), "--first-layer-height", str(LAYER_MM),
@@ -112,6 +115,28 @@ def manifold(path):
     verdict.expect("status", told["status"] == "NoError", told["status"])
     error = relative(told["volume"], intended)
     verdict.expect("volume = outer - voids", abs(error) < 1e-6, f"{told['volume']:.3f} mm3, {error:+.1e}")
+    return verdict
+
+
+def layered(path, validation, raster):
+    """PrusaSlicer's own layers of the shell show the voids, the widest span of their ceilings and the islands in them that
+    `aplomb validate` tells of."""
+    verdict = Verdict()
+    mesh = shells.read(path)
+    _, voids = shells.split_voids(mesh)
+    intended = sum(abs(shells.body(part).volume) for part in voids)
+    shown = layers.shown(path, mesh, raster, VALIDATED_LAYER_MM, allowed_mm=VALIDATED_LAYER_MM)  # 45 degrees
+    found = VALIDATED_LAYER_MM * sum(shown.void_mm2)
+    verdict.expect("volume of the voids", abs(found - intended) <= 0.002 * intended + 1, f"{found:.0f} of {intended:.0f} mm3")
+    check = next(check for check in validation["checks"] if check["id"] == "void.bridge")
+    told, span = check.get("measured", 0), max(shown.span_mm)
+    # What is narrower than two pixels more than a layer may overhang is there in one and not there in the other.
+    near = abs(span - told) <= 4 * layers.PIXEL_MM or max(span, told) < 2 * (VALIDATED_LAYER_MM + 2 * layers.PIXEL_MM)
+    verdict.expect("widest span", near, f"{span:.2f} mm in layer {shown.span_mm.index(span)}, {told:.2f} told")
+    told = sorted(finding["measured"] for finding in validation["findings"] if finding["id"] == "void.island")
+    islands = sorted(island.area_mm2 for island in shown.islands if island.area_mm2 >= LEAST_ISLAND_MM2)
+    alike = len(told) == len(islands) and all(abs(a - b) < 0.1 * b + 0.1 for a, b in zip(told, islands))
+    verdict.expect("islands in voids", alike, f"{islands} mm2, {told} told")
     return verdict
 
 
@@ -218,14 +243,19 @@ def ask(table, body, plate, polygon, questions):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("judge", choices=["prusaslicer", "manifold", "poses"])
+    parser.add_argument("judge", choices=["prusaslicer", "manifold", "poses", "layers"])
     parser.add_argument("shell")
     parser.add_argument("--report")
+    parser.add_argument("--validation")
     parser.add_argument("--table")
+    parser.add_argument("--raster")
     parser.add_argument("--contact-height-mm", type=float, default=0.1)
     arguments = parser.parse_args()
     if arguments.judge == "manifold":
         verdict = manifold(arguments.shell)
+    elif arguments.judge == "layers":
+        with open(arguments.validation) as file:
+            verdict = layered(arguments.shell, json.load(file), arguments.raster)
     else:
         with open(arguments.report) as file:
             report = json.load(file)

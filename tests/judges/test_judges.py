@@ -11,6 +11,7 @@ import shells
 import void_core
 
 TABLE = os.environ["APLOMB_TILT_TABLE"]
+RASTER = os.environ["APLOMB_LAYER_RASTER"]
 QUADS = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
 
 
@@ -31,8 +32,19 @@ def joined(first, second):
                        first.triangles + [tuple(i + shift for i in t) for t in second.triangles])
 
 
+def box_less_block(low, high, block_low, block_high):
+    """A box with a block cut out of its top."""
+    vertices = leaning_box(low, high).vertices + leaning_box(block_low, block_high).vertices
+    top = (4, 5, 7, 6)
+    rim = [(a, b, b + 8, a + 8) for a, b in zip(top, top[1:] + top[:1])]
+    block = [tuple(i + 8 for i in reversed(quad)) for quad in QUADS if quad != top]
+    quads = [quad for quad in QUADS if quad != top] + rim + block
+    return shells.Mesh(vertices, [t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))])
+
+
 CUBE = leaning_box((0, 0, 0), (40, 40, 40))
 HOLLOW = joined(CUBE, reversed_mesh(leaning_box((10, 10, 10), (30, 30, 30))))
+WITH_ISLAND = joined(CUBE, reversed_mesh(box_less_block((10, 10, 10), (30, 30, 30), (13, 13, 15), (18, 19, 30))))
 WRONGLY_WOUND = joined(CUBE, leaning_box((10, 10, 10), (30, 30, 30)))
 TORN = shells.Mesh(HOLLOW.vertices, HOLLOW.triangles[:-1])
 
@@ -53,6 +65,31 @@ def wrong_in_file(judgement, mesh, *arguments):
 def standing(mesh, up=(0, 0, 1), **after):
     body = shells.body(mesh)
     return {"kind": "standing", "up": up, "after": {"volume_mm3": body.volume, "com_mm": body.centroid, **after}}
+
+
+class Layers(unittest.TestCase):
+    """A void of 20 x 20 x 20 mm, bridged across 20 mm; in one of them a block of 5 x 6 mm hangs from
+    the ceiling, whose first layer's far
+    corner is 8 mm from the nearest wall."""
+
+    def judgement(self, mesh, span_mm, *islands_mm2):
+        checks = [{"id": "void.bridge", "measured": span_mm}]
+        return wrong_in_file(judge.layered, mesh, {"checks": checks, "findings": [
+            {"id": "void.island", "measured": area} for area in islands_mm2]}, RASTER)
+
+    def test_passes_what_the_layers_show(self):
+        self.assertEqual(self.judgement(HOLLOW, 20), [])
+        self.assertEqual(self.judgement(WITH_ISLAND, 16, 30), [])
+
+    def test_fails_a_span_that_is_not_there(self):
+        self.assertEqual(self.judgement(HOLLOW, 19), ["widest span"])
+
+    def test_fails_an_island_that_was_not_told_of_and_one_that_is_not_there(self):
+        self.assertEqual(self.judgement(WITH_ISLAND, 16), ["islands in voids"])
+        self.assertEqual(self.judgement(HOLLOW, 20, 30), ["islands in voids"])
+
+    def test_fails_a_void_that_the_slicer_fills(self):
+        self.assertIn("volume of the voids", self.judgement(WRONGLY_WOUND, 20))
 
 
 class Prusaslicer(unittest.TestCase):
