@@ -65,5 +65,20 @@ TEST(Page, SaysTheVerdictFirstAndEveryCheckOnce) {
   EXPECT_EQ(html.find("<script"), std::string::npos);
 }
 
+TEST(Page, NumbersPlacesAsTheyAreMarkedAndNeighboursAlike) {
+  const TriangleMesh box = test::box({0, 0, 0}, {30, 30, 30});
+  PageContent content{.title = "box", .after = &box, .poses = {Pose{}}};
+  content.judgement.emplace();
+  for (const auto& [id, z] : {std::pair("wall.thin", 1.0), {"void.island", 1.5}, {"void.bridge", 20.0}}) {
+    Finding& finding = content.judgement->findings.emplace_back();
+    finding.id = id;
+    finding.box_mm.add(finding.at_mm = {15, 15, z});
+  }
+  content.judgement->findings.emplace_back().id = "bed.contact";  // the whole model
+  const std::string html = html_page(content).value();
+  for (const char* row : {"1</td><td>wall.thin", "1</td><td>void.island", "2</td><td>void.bridge", "></td><td>bed.co"})
+    EXPECT_NE(html.find(row), std::string::npos) << row;
+}
+
 }  // namespace
 }  // namespace aplomb::page

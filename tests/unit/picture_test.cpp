@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -125,6 +127,22 @@ TEST(Picture, a_body_hangs_with_its_centre_of_mass_below_the_threads) {
   EXPECT_GT(thread.z, 0);
 }
 
+/// In the pose's own coordinates: the model's top is at the bottom of the picture when it stands on its head.
+TEST(Picture, a_mark_is_drawn_where_the_pose_puts_it) {
+  const TriangleMesh box = test::box({0, 0, 5}, {10, 10, 25});
+  const auto rows_with_a_mark = [&](Vec3 up, Vec3 at) {
+    const std::vector<Pose> poses{{.way = StandingPose{.up = up}}};
+    const Image plain = as_it_is(box, poses, 100).value(), marked = as_it_is(box, poses, 100, {{at, "1"}}).value();
+    std::set<int> rows;
+    for (std::size_t i = 0; i < plain.rgb.size(); ++i)
+      if (plain.rgb[i] != marked.rgb[i]) rows.insert(static_cast<int>(i / 3) / plain.width);
+    return rows;
+  };
+  const auto upright = rows_with_a_mark({0, 0, 1}, {5, 5, 24}), head_down = rows_with_a_mark({0, 0, -1}, {5, 5, 24});
+  ASSERT_FALSE(upright.empty() || head_down.empty());
+  EXPECT_LT(*upright.rbegin(), *head_down.begin());
+}
+
 TEST(Picture, before_and_after_has_a_row_for_every_pose) {
   const TriangleMesh box = test::box({0, 0, 0}, {10, 10, 20});
   const std::vector<Pose> poses{{.name = "feet"}, {.way = HangingPose{.attachments_mm = {{1, 1, 20}}}}};
@@ -133,7 +151,7 @@ TEST(Picture, before_and_after_has_a_row_for_every_pose) {
   EXPECT_EQ(image->width, 150);
   EXPECT_EQ(image->height, 2 * 55);
   EXPECT_EQ(as_it_is(box, poses, 50)->width, 100);
-  const auto stopped = before_and_after(box, box, poses, 50, Job([](double, std::string_view) { return false; }));
+  const auto stopped = before_and_after(box, box, poses, 50, {}, Job([](double, std::string_view) { return false; }));
   ASSERT_FALSE(stopped);
   EXPECT_EQ(stopped.error().code, ErrorCode::cancelled);
 }

@@ -141,8 +141,8 @@ Result<void> draw(const Arguments& a, const Input& input, const StandRun* made, 
   if (a.job.picture.empty()) return {};
   const TriangleMesh& before = input.solid.mesh();
   const auto image = made && made->shell
-                         ? picture::before_and_after(before, made->shell->mesh, poses, picture_size, job)
-                         : picture::as_it_is(before, poses, picture_size, job);
+                         ? picture::before_and_after(before, made->shell->mesh, poses, picture_size, {}, job)
+                         : picture::as_it_is(before, poses, picture_size, {}, job);
   if (!image) return tl::unexpected(image.error());
   const auto bytes = picture::encode_png(*image);
   if (!bytes) return tl::unexpected(bytes.error());

@@ -60,18 +60,44 @@ std::string headline(const PageContent& content) {
   return text;
 }
 
-Result<std::string> pictures(const PageContent& content, const Job& job) {
+/// The places of findings, numbered to be found in the pictures.
+struct Marks {
+  std::vector<picture::Mark> marks;
+  std::vector<std::string> of_finding;  ///< the number of its mark, or nothing
+};
+
+/// Findings near one another share a mark, and more than a dozen would hide the model.
+Marks marks_of(const PageContent& content) {
+  constexpr std::size_t most = 12;
+  Marks found;
+  if (!content.judgement) return found;
+  const double near_mm = 0.04 * bounding_box(content.after ? *content.after : *content.before).diagonal();
+  for (const Finding& f : content.judgement->findings) {
+    std::string& number = found.of_finding.emplace_back();
+    if (f.box_mm.empty() || f.severity == Severity::info) continue;
+    auto at = std::ranges::find_if(found.marks, [&](const auto& mark) { return norm(mark.at_mm - f.at_mm) < near_mm; });
+    if (at == found.marks.end()) {
+      if (found.marks.size() == most) continue;
+      at = found.marks.insert(at, {f.at_mm, fmt::format("{}", found.marks.size() + 1)});
+    }
+    number = at->text;
+  }
+  return found;
+}
+
+Result<std::string> pictures(const PageContent& content, const std::vector<picture::Mark>& marks, const Job& job) {
   const auto image =
       content.before && content.after
-          ? picture::before_and_after(*content.before, *content.after, content.poses, picture_size, job)
-          : picture::as_it_is(content.after ? *content.after : *content.before, content.poses, picture_size, job);
+          ? picture::before_and_after(*content.before, *content.after, content.poses, picture_size, marks, job)
+          : picture::as_it_is(content.after ? *content.after : *content.before, content.poses, picture_size, marks,
+                              job);
   if (!image) return tl::unexpected(image.error());
   const auto png = picture::encode_png(*image);
   if (!png) return tl::unexpected(png.error());
   return fmt::format(
       "<figure><img alt=\"The model, cut open and whole, with its centre of mass and support polygon\" "
-      "src=\"data:image/png;base64,{}\"></figure>\n",
-      base64(*png));
+      "src=\"data:image/png;base64,{}\">{}</figure>\n",
+      base64(*png), marks.empty() ? "" : "<figcaption>Rings: places of what is listed below, by number.</figcaption>");
 }
 
 std::string diagrams(const PageContent& content) {
@@ -86,17 +112,19 @@ std::string diagrams(const PageContent& content) {
       directions_svg(*content.standing, content.required_tip_rad), asked_deg);
 }
 
-std::string findings(const Judgement& judgement) {
+std::string findings(const Judgement& judgement, const Marks& marks) {
   if (judgement.findings.empty()) return "";
   std::string rows;
-  for (const Finding& f : judgement.findings) {
+  for (std::size_t n = 0; n < judgement.findings.size(); ++n) {
+    const Finding& f = judgement.findings[n];
     const auto place = f.box_mm.empty() ? std::string("whole model")
                                         : fmt::format("({:.1f}, {:.1f}, {:.1f}) mm", f.at_mm.x, f.at_mm.y, f.at_mm.z);
     const std::string_view as_it_came = f.in_input ? "; the model as it came has it, too" : "";
-    rows += fmt::format("<tr><td>{}</td><td>{}{}</td><td>{}</td><td>{}</td></tr>\n", escaped(f.id), escaped(f.text),
-                        as_it_came, place, escaped(f.remedy));
+    rows += fmt::format("<tr><td class=\"n\">{}</td><td>{}</td><td>{}{}</td><td>{}</td><td>{}</td></tr>\n",
+                        marks.of_finding[n], escaped(f.id), escaped(f.text), as_it_came, place, escaped(f.remedy));
   }
-  return "<h2>What is in the way</h2>\n<table><thead><tr><th>check</th><th>found</th><th>where</th><th>what "
+  return "<h2>What is in the "
+         "way</h2>\n<table><thead><tr><th>mark</th><th>check</th><th>found</th><th>where</th><th>what "
          "helps</th></tr></thead><tbody>\n" +
          rows + "</tbody></table>\n";
 }
@@ -122,12 +150,13 @@ std::string checks(const Judgement& judgement) {
 
 Result<std::string> html_page(const PageContent& content, const Job& job) {
   assert(content.before || content.after);
-  const auto shown = pictures(content, job);
+  const Marks marks = marks_of(content);
+  const auto shown = pictures(content, marks.marks, job);
   if (!shown) return tl::unexpected(shown.error());
   const std::string title = escaped(content.title), said = escaped(headline(content));
   std::string body =
       fmt::format("<h1>{}</h1>\n<p class=\"model\">{}</p>\n{}{}", said, title, *shown, diagrams(content));
-  if (content.judgement) body += findings(*content.judgement) + checks(*content.judgement);
+  if (content.judgement) body += findings(*content.judgement, marks) + checks(*content.judgement);
   if (content.report)
     body += fmt::format("<h2>Before and after, in numbers</h2>\n<pre>{}</pre>\n", escaped(to_text(*content.report)));
   return fmt::format(

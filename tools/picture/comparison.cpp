@@ -14,15 +14,16 @@ struct Posed {
   std::string verdict;
   Vec3 heading{1, 0, 0};  ///< where it would fall, or across the threads
   bool has_plate = true;
+  Affine3 down{};  ///< from the mesh as it came
 };
 
 Result<Posed> posed(const TriangleMesh& mesh, const Pose& pose) {
   if (const HangingPose* hanging = pose.hanging())
     return hung(mesh, *hanging).map([](Hung hung) {
-      return Posed{std::move(hung.subject), std::move(hung.verdict), {1, 0, 0}, false};
+      return Posed{std::move(hung.subject), std::move(hung.verdict), {1, 0, 0}, false, hung.down};
     });
   return stood_up(mesh, *pose.standing()).map([](const Figure& figure) {
-    return Posed{drawn(figure), verdict(figure), figure.standing.stability.heading, true};
+    return Posed{drawn(figure), verdict(figure), figure.standing.stability.heading, true, figure.down};
   });
 }
 
@@ -71,7 +72,7 @@ class Row {
 };
 
 Result<Image> pictures(const std::vector<const TriangleMesh*>& meshes, const std::vector<Pose>& poses, int size,
-                       const Job& job) {
+                       const std::vector<Mark>& marks, const Job& job) {
   assert(!poses.empty() && size > 0);
   std::vector<Image> rows;
   for (std::size_t n = 0; n < poses.size(); ++n) {
@@ -81,6 +82,8 @@ Result<Image> pictures(const std::vector<const TriangleMesh*>& meshes, const std
       if (!figure) return tl::unexpected(figure.error());
       figures.push_back(std::move(*figure));
     }
+    for (const Mark& mark : marks)
+      figures.back().subject.marks.push_back({figures.back().down * mark.at_mm, mark.text});
     const double share = 1 / static_cast<double>(poses.size());
     const double from = static_cast<double>(n) * share;
     auto row = Row(std::move(figures), size).draw(poses[n].name, job.part(from, from + share));
@@ -93,12 +96,13 @@ Result<Image> pictures(const std::vector<const TriangleMesh*>& meshes, const std
 }  // namespace
 
 Result<Image> before_and_after(const TriangleMesh& before, const TriangleMesh& after, const std::vector<Pose>& poses,
-                               int size, const Job& job) {
-  return pictures({&before, &after}, poses, size, job);
+                               int size, const std::vector<Mark>& marks, const Job& job) {
+  return pictures({&before, &after}, poses, size, marks, job);
 }
 
-Result<Image> as_it_is(const TriangleMesh& mesh, const std::vector<Pose>& poses, int size, const Job& job) {
-  return pictures({&mesh}, poses, size, job);
+Result<Image> as_it_is(const TriangleMesh& mesh, const std::vector<Pose>& poses, int size,
+                       const std::vector<Mark>& marks, const Job& job) {
+  return pictures({&mesh}, poses, size, marks, job);
 }
 
 }  // namespace aplomb::picture

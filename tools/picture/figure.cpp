@@ -64,7 +64,7 @@ Result<Figure> stood_up(TriangleMesh mesh, StandingPose pose) {
         return measure_standing(mesh, {&body, 1}, pose);
       })
       .map([&](Standing standing) {
-        return Figure{std::move(mesh), std::move(standing)};
+        return Figure{std::move(mesh), std::move(standing), down};
       });
 }
 
@@ -79,7 +79,7 @@ Result<Hung> hung(TriangleMesh mesh, const HangingPose& pose) {
   subject.com_mm = down * hanging.com_mm;
   for (const Vec3& point : pose.attachments_mm) subject.threads_mm.push_back(down * point);
   subject.mesh = std::move(mesh);
-  return Hung{std::move(subject), degrees_text("hangs askew by ", hanging.tilt_rad)};
+  return Hung{std::move(subject), down, degrees_text("hangs askew by ", hanging.tilt_rad)};
 }
 
 Subject drawn(const Figure& figure) {

@@ -14,6 +14,7 @@ namespace aplomb::picture {
 struct Figure {
   TriangleMesh mesh;  ///< z up, its lowest point on z = 0
   Standing standing;
+  Affine3 down;  ///< from the mesh as it came
 };
 
 /// Turns the pose's up upward, puts the lowest point on the plate and measures at density 1.
@@ -23,6 +24,7 @@ Result<Figure> stood_up(TriangleMesh mesh, StandingPose pose);
 /// A body as it comes to rest on its threads.
 struct Hung {
   Subject subject;      ///< the threads upward, the lowest point on z = 0
+  Affine3 down;         ///< from the mesh as it came
   std::string verdict;  ///< "hangs askew by 2.3 degrees", with the degree sign
 };
 /// \return unusable_input for a mesh without positive volume.

@@ -103,4 +103,19 @@ void draw_ball(Image& image, Vec2 centre, double radius) {
   paint(image, centre - reach, centre + reach, {0.01F, 0.01F, 0.01F}, 1, quarters);
 }
 
+void draw_mark(Image& image, Vec2 centre, double thickness, const std::string& text) {
+  constexpr Colour white{1, 1, 1}, red{0.45F, 0.01F, 0.02F};
+  const double radius = 5 * thickness, height = 8 * thickness;
+  const Vec2 reach{2 * radius, 2 * radius};
+  const auto ring = [&](double width) {
+    return [=](Vec2 p) { return 0.5 * width + 0.5 - std::abs(norm(p - centre) - radius); };
+  };
+  paint(image, centre - reach, centre + reach, white, 0.9F, ring(3 * thickness));
+  paint(image, centre - reach, centre + reach, red, 1, ring(1.4 * thickness));
+  const Vec2 at = centre + Vec2{radius + 0.5 * height, -0.6 * radius};
+  for (const Vec2 off : {Vec2{-1, 0}, Vec2{1, 0}, Vec2{0, -1}, Vec2{0, 1}})
+    draw_text(image, at.x + thickness * off.x, at.y + thickness * off.y, height, text, white);
+  draw_text(image, at.x, at.y, height, text, red);
+}
+
 }  // namespace aplomb::picture

@@ -14,5 +14,7 @@ void draw_stroke(Image& image, const std::vector<Vec2>& points, double width, Co
 void fill_polygon(Image& image, const std::vector<Vec2>& convex, Colour colour, float opacity);
 /// The usual sign of a centre of mass: a disc in black and white quarters.
 void draw_ball(Image& image, Vec2 centre, double radius);
+/// A ring with the text at its upper right, edged in white, so that it shows on anything.
+void draw_mark(Image& image, Vec2 centre, double thickness, const std::string& text);
 
 }  // namespace aplomb::picture

@@ -22,12 +22,19 @@ struct Colour {
   float red = 0, green = 0, blue = 0;  ///< linear light, 0..1
 };
 
+/// A ring round a place, with a short text beside it.
+struct Mark {
+  Vec3 at_mm;
+  std::string text;
+};
+
 /// What is shown, in millimetres, z up, the plate at z = 0.
 struct Subject {
   TriangleMesh mesh;                          ///< closed; voids are its reversed shells
   std::vector<Vec2> support_polygon_mm = {};  ///< drawn on the plate; empty: none
   std::optional<Vec3> com_mm = {};            ///< drawn as a ball with its plumb line, seen through the figure
   std::vector<Vec3> threads_mm = {};          ///< points from which it hangs: drawn as lines upward
+  std::vector<Mark> marks = {};               ///< seen through the figure
   Colour colour = {0.66F, 0.29F, 0.17F};
 };
 

@@ -255,6 +255,7 @@ class Drawing {
       draw_stroke(image, {foot, foot}, 3.2 * thick, {0.02F, 0.02F, 0.03F}, 1);
       draw_ball(image, pixel(com), 3.4 * thick);
     }
+    for (const Mark& mark : subject_.marks) draw_mark(image, pixel(mark.at_mm), thick, mark.text);
   }
 
   const Subject& subject_;
@@ -287,6 +288,7 @@ Subject toppled(Subject subject, Vec2 from, Vec2 to, double share) {
   };
   for (Vec3& v : subject.mesh.vertices) v = turn(v);
   if (subject.com_mm) subject.com_mm = turn(*subject.com_mm);
+  for (Mark& mark : subject.marks) mark.at_mm = turn(mark.at_mm);
   return subject;
 }
 
