@@ -29,7 +29,12 @@ struct Subject {
   std::optional<Vec3> com_mm = {};            ///< drawn as a ball with its plumb line, seen through the figure
   std::vector<Vec3> threads_mm = {};          ///< points from which it hangs: drawn as lines upward
   Colour colour = {0.66F, 0.29F, 0.17F};
+  std::vector<float> vertex_shares = {};  ///< by vertex: coloured by scale_colour() instead; empty: none
 };
+
+/// A scale of eight bands for shares in [0, 1], each darker than the one before: it reads without colour vision.
+Colour scale_colour(double share);
+inline constexpr int scale_bands = 8;
 
 /// A plane through `point`; what is on the side of `normal` is taken away.
 struct Cut {

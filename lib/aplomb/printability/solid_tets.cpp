@@ -14,7 +14,7 @@
 namespace aplomb {
 namespace {
 
-constexpr std::size_t few_triangles = 8000;
+constexpr std::size_t few_triangles = 3500;
 constexpr IsolationLimits tetgen_limits{60, 2048};
 
 /// How far along the ray it meets the triangle (Moeller and Trumbore); infinite where it does not.
@@ -66,8 +66,8 @@ Result<std::vector<std::uint32_t>> nothing_spoilt(const TriangleMesh&, const Job
 }  // namespace
 
 Result<TetMesh> solid_tets(const SolidMesh& solid, const TetCounts& counts, const Job& job) {
-  const adapters::TetrahedraSize size{solid.moments().volume_mm3 / static_cast<double>(counts.few), 1.6};
-  constexpr std::array deviations{2e-4, 4e-4, 8e-4, 1.6e-3};  // of the diagonal
+  const adapters::TetrahedraSize size{solid.moments().volume_mm3 / static_cast<double>(counts.few), 2.5};
+  constexpr std::array deviations{2e-4, 4e-4, 8e-4, 1.6e-3, 3.2e-3};  // of the diagonal
   std::size_t found = 0;
   for (std::size_t n = 0; n < deviations.size(); ++n) {
     const bool is_last = n + 1 == deviations.size();

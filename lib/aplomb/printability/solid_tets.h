@@ -10,12 +10,12 @@
 namespace aplomb {
 
 struct TetCounts {
-  std::size_t few = 8'000;    ///< none has more than the volume of the solid divided by this
-  std::size_t most = 60'000;  ///< a coarser surface is tried, then it is refused
+  std::size_t few = 4'000;    ///< none has more than the volume of the solid divided by this
+  std::size_t most = 80'000;  ///< a coarser surface is tried, then it is refused
 };
 
 /// A solid as tetrahedra for elasticity. Its surface is simplified first, by 0.02 % of the box's diagonal and up to
-/// 0.16 % where that leaves too many triangles or tetrahedra.
+/// 0.32 % where that leaves too many triangles or tetrahedra.
 ///
 /// \return over_budget for more than counts.most tetrahedra; third_party when TetGen dies; cancelled.
 /// \par Cost  lib/README.md, "Strength by elasticity".

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <utility>
 
@@ -59,7 +60,7 @@ LoadStress interpolated(const std::array<LoadStress, 4>& corners, const Barycent
   return sum;
 }
 
-/// What is worse than this by a push in one direction, the worst first, until it fills the volume.
+/// The samples that are worst by a push in one direction and fill the volume, and the mildest of their stresses.
 struct Worst {
   double stress_mpa = 0;
   std::vector<std::pair<double, std::size_t>> samples;  // stress and number
@@ -67,31 +68,40 @@ struct Worst {
 
 Worst worst_of(const std::vector<Sample>& samples, double azimuth, double volume_mm3) {
   Worst worst;
+  auto& heap = worst.samples;
+  heap.reserve(samples.size());
   for (std::size_t n = 0; n < samples.size(); ++n)
-    worst.samples.emplace_back(largest_principal_mpa(pushed_towards(samples[n].stress, azimuth)), n);
-  std::ranges::sort(worst.samples, std::greater{});
+    heap.emplace_back(largest_principal_mpa(pushed_towards(samples[n].stress, azimuth)), n);
+  std::ranges::make_heap(heap);
   double sum = 0;
-  for (std::size_t n = 0; n < worst.samples.size(); ++n) {
-    sum += samples[worst.samples[n].second].volume_mm3;
+  for (auto end = heap.end(); end != heap.begin(); --end) {
+    std::pop_heap(heap.begin(), end);  // to its end, one before the last
+    sum += samples[std::prev(end)->second].volume_mm3;
     if (sum < volume_mm3) continue;
-    worst.stress_mpa = worst.samples[n].first;
-    worst.samples.resize(n + 1);
+    worst.stress_mpa = std::prev(end)->first;
+    heap.erase(heap.begin(), std::prev(end));
     return worst;
   }
   return {};
 }
 
-Worst worst_of(const std::vector<Sample>& samples, double volume_mm3) {
-  std::array<Worst, directions> all;
-  tbb::parallel_for(std::size_t{0}, directions,
-                    [&](std::size_t d) { all[d] = worst_of(samples, azimuth_rad(d), volume_mm3); });
-  return *std::ranges::max_element(all, {}, &Worst::stress_mpa);
+using WorstByDirection = std::array<Worst, directions>;
+
+/// Of the directions that are asked for.
+template <class Asked>
+WorstByDirection worst_of(const std::vector<Sample>& samples, double volume_mm3, const Asked& is_asked) {
+  WorstByDirection all;
+  tbb::parallel_for(std::size_t{0}, directions, [&](std::size_t d) {
+    if (is_asked(d)) all[d] = worst_of(samples, azimuth_rad(d), volume_mm3);
+  });
+  return all;
 }
+const Worst& worst_of(const WorstByDirection& all) { return *std::ranges::max_element(all, {}, &Worst::stress_mpa); }
 
 /// Finer in larger tetrahedra, so that a sample is a small part of the volume asked for.
 int level_of(double tet_mm3, double volume_mm3) {
   int level = 0;
-  while (level < 4 && tet_mm3 > 0.02 * volume_mm3 * std::pow(8, level)) ++level;
+  while (level < 4 && tet_mm3 > 0.03 * volume_mm3 * std::pow(8, level)) ++level;
   return level;
 }
 
@@ -134,7 +144,8 @@ std::vector<Place> exceeded_stress(const QuadraticTets& mesh, const std::vector<
   };
   std::vector<Sample> coarse, fine;
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) add_samples(t, tet_points, coarse);
-  const double about_mpa = worst_of(coarse, volume_mm3).stress_mpa;
+  const WorstByDirection about = worst_of(coarse, volume_mm3, [](std::size_t) { return true; });
+  const double about_mpa = worst_of(about).stress_mpa;
   if (!(about_mpa > 0)) return {};
 
   // The largest principal stress is convex and the stress affine: no tetrahedron exceeds the worst of its corners.
@@ -144,9 +155,11 @@ std::vector<Place> exceeded_stress(const QuadraticTets& mesh, const std::vector<
   });
   const std::array middles{middles_of(0), middles_of(1), middles_of(2), middles_of(3), middles_of(4)};
   for (std::size_t t = 0; t < bounds.size(); ++t)
-    if (bounds[t] >= 0.6 * about_mpa)
+    if (bounds[t] >= 0.7 * about_mpa)
       add_samples(t, middles[std::size_t(level_of(tet_shape(mesh, t).volume_mm3, volume_mm3))], fine);
-  const Worst worst = worst_of(fine, volume_mm3);
+  const WorstByDirection all =
+      worst_of(fine, volume_mm3, [&](std::size_t d) { return about[d].stress_mpa >= 0.95 * about_mpa; });
+  const Worst& worst = worst_of(all);
   if (worst.samples.empty()) return {};
   Place place{worst.stress_mpa, {}, {}};
   double sum = 0;
