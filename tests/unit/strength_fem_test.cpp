@@ -83,8 +83,7 @@ TEST(StrengthFem, a_column_bears_what_is_above) {
 }
 
 TEST(StrengthFem, agrees_with_the_sections_on_a_long_thin_ankle) {
-  const TriangleMesh figure =
-      test::lathe({{0, 0}, {5, 0}, {4, 20}, {4, 50}, {6, 56}, {15, 70}, {15, 90}, {0, 90}}, 64);
+  const TriangleMesh figure = test::lathe({{0, 0}, {5, 0}, {4, 20}, {4, 50}, {6, 56}, {15, 70}, {15, 90}, {0, 90}}, 64);
   const test::Print print = test::print_of(figure);
   const Place ankle = measure_strength_ankle(print.printed, print.slices, Rules(Process::fdm), 1.24).value().front();
   const FemStrength fem = strength_of(figure, 1.24);
@@ -100,8 +99,8 @@ TEST(StrengthFem, the_picture_is_of_the_solids_surface_and_shows_the_stress_on_i
   EXPECT_NEAR(moments(field.surface).volume_mm3, 8 * 8 * 80, 1e-6);
   double middle = 0, count = 0;
   for (std::size_t v = 0; v < field.stress_mpa.size(); ++v)
-    if (const Vec3 p = field.surface.vertices[v]; std::abs(std::abs(p.x) - 4) + std::abs(std::abs(p.y) - 4) < 1e-6 &&
-                                                  p.z > 20 && p.z < 60) {
+    if (const Vec3 p = field.surface.vertices[v];
+        std::abs(std::abs(p.x) - 4) + std::abs(std::abs(p.y) - 4) < 1e-6 && p.z > 20 && p.z < 60) {
       middle += field.stress_mpa[v] / (push_n * (80 - p.z) * 4 * std::sqrt(2.0) / (4096 / 12.0));
       ++count;
     }
@@ -165,10 +164,10 @@ TriangleMesh holed_plate() {
   };
   constexpr unsigned o = segments, up = 2 * segments;
   for (unsigned n = 0, m = 1; n < segments; ++n, m = (n + 1) % segments) {
-    quad(n, m, o + m, o + n);                              // below
-    quad(up + n, up + o + n, up + o + m, up + m);          // above
-    quad(n, up + n, up + m, m);                            // in the hole
-    quad(o + n, o + m, up + o + m, up + o + n);            // outside
+    quad(n, m, o + m, o + n);                      // below
+    quad(up + n, up + o + n, up + o + m, up + m);  // above
+    quad(n, up + n, up + m, m);                    // in the hole
+    quad(o + n, o + m, up + o + m, up + o + n);    // outside
   }
   return mesh;
 }

@@ -74,10 +74,11 @@ Result<std::string> stresses(const PageContent& content, const Job& job) {
   if (!image) return tl::unexpected(image.error());
   return figure_of(*image, "The model from the front and from behind, darker where it is stressed more")
       .map([&](const std::string& figure) {
-        return fmt::format("<h2>Where it is stressed</h2>\n{}<p>Under its own weight and a push of 10 N at its top, "
-                           "in each place from whichever side is worst. 1 mm³ of what is judged exceeds {:.3g} MPa; "
-                           "close to the plate, where it is held fast, and to the top nothing is judged.</p>\n",
-                           figure, field.measured_mpa);
+        return fmt::format(
+            "<h2>Where it is stressed</h2>\n{}<p>Under its own weight and a push of 10 N at its top, "
+            "in each place from whichever side is worst. 1 mm³ of what is judged exceeds {:.3g} MPa; "
+            "close to the plate, where it is held fast, and to the top nothing is judged.</p>\n",
+            figure, field.measured_mpa);
       });
 }
 

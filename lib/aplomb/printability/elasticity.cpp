@@ -75,12 +75,9 @@ Stress stress_of(const Lame& lame, const QuadraticTets::Tet& nodes, const NodalF
   Stress strain;  // its off-diagonal entries are the engineer's, doubled
   for (std::size_t n = 0; n < 10; ++n) {
     const Vec3 u = moved[nodes[n]], g = gradients[n];
-    strain = strain + Stress{u.x * g.x,
-                             u.y * g.y,
-                             u.z * g.z,
-                             u.x * g.y + u.y * g.x,
-                             u.y * g.z + u.z * g.y,
-                             u.z * g.x + u.x * g.z};
+    strain =
+        strain +
+        Stress{u.x * g.x, u.y * g.y, u.z * g.z, u.x * g.y + u.y * g.x, u.y * g.z + u.z * g.y, u.z * g.x + u.x * g.z};
   }
   const double pressure = lame.lambda_mpa * (strain.xx + strain.yy + strain.zz);
   return lame.mu_mpa * Stress{2 * strain.xx, 2 * strain.yy, 2 * strain.zz, strain.xy, strain.yz, strain.zx} +
@@ -93,12 +90,10 @@ double largest_principal_mpa(const Stress& s) {
   // Eigenvalues of a symmetric 3x3 matrix: mean + 2 r cos(angle + 2 pi k / 3) (Smith 1961).
   const double mean = (s.xx + s.yy + s.zz) / 3;
   const double x = s.xx - mean, y = s.yy - mean, z = s.zz - mean;
-  const double r =
-      std::sqrt((x * x + y * y + z * z + 2 * (s.xy * s.xy + s.yz * s.yz + s.zx * s.zx)) / 6);
+  const double r = std::sqrt((x * x + y * y + z * z + 2 * (s.xy * s.xy + s.yz * s.yz + s.zx * s.zx)) / 6);
   if (!(r > 0)) return std::abs(mean);
-  const double half_det = (x * (y * z - s.yz * s.yz) - s.xy * (s.xy * z - s.yz * s.zx) +
-                           s.zx * (s.xy * s.yz - y * s.zx)) /
-                          2;
+  const double half_det =
+      (x * (y * z - s.yz * s.yz) - s.xy * (s.xy * z - s.yz * s.zx) + s.zx * (s.xy * s.yz - y * s.zx)) / 2;
   const double angle = std::acos(std::clamp(half_det / (r * r * r), -1.0, 1.0)) / 3;
   const double most = mean + 2 * r * std::cos(angle);
   const double least = mean + 2 * r * std::cos(angle + 2 * std::numbers::pi / 3);

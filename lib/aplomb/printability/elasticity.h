@@ -53,8 +53,8 @@ Stress stress_in(const QuadraticTets& mesh, const ElasticMaterial& material, con
 
 /// What holds a body, and the forces on it.
 struct ElasticLoads {
-  std::vector<bool> held;           ///< by node
-  NodalField held_at_mm{};          ///< displacement of the nodes held; empty: none
+  std::vector<bool> held;              ///< by node
+  NodalField held_at_mm{};             ///< displacement of the nodes held; empty: none
   std::vector<NodalField> forces_n{};  ///< one load case each
 };
 

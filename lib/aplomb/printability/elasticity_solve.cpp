@@ -167,8 +167,9 @@ Result<std::vector<double>> solved_apart(const SparseSymmetric& matrix, const st
   std::vector<double> values((bytes->size() - 1) / sizeof(double));
   std::memcpy(values.data(), bytes->data() + 1, values.size() * sizeof(double));
   if (bytes->front() == 'm')
-    return fail(ErrorCode::over_budget, fmt::format("elasticity with {} unknowns would take {:.0f} MB; allowed are {:.0f}",
-                                                    matrix.size(), values.front() / byte_per_mb, most / byte_per_mb));
+    return fail(ErrorCode::over_budget,
+                fmt::format("elasticity with {} unknowns would take {:.0f} MB; allowed are {:.0f}", matrix.size(),
+                            values.front() / byte_per_mb, most / byte_per_mb));
   if (bytes->front() != 's') return fail(ErrorCode::third_party, "CHOLMOD could not solve the elastic system");
   return values;
 }

@@ -179,7 +179,9 @@ class SolidJudge {
     const double fem_share = options_.fem ? 0.6 : 0;  // of the time
     const auto slices = cut_slices(printed_, rules().layer_mm, job.part(0, 0.2 * (1 - fem_share)));
     if (!slices) return tl::unexpected(slices.error());
-    return sections(*slices, job.part(0, 1 - fem_share)).and_then([&] { return fem(*slices, job.part(1 - fem_share, 1)); });
+    return sections(*slices, job.part(0, 1 - fem_share)).and_then([&] {
+      return fem(*slices, job.part(1 - fem_share, 1));
+    });
   }
 
   Result<void> sections(const Slices& slices, const Job& job) {

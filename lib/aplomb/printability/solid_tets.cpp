@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <utility>
 
 #include "aplomb/adapters/tetgen/tetrahedralize.h"
 #include "aplomb/mesh/detail/crossings.h"
@@ -65,22 +66,22 @@ Result<std::vector<std::uint32_t>> nothing_spoilt(const TriangleMesh&, const Job
 
 }  // namespace
 
-Result<TetMesh> solid_tets(const SolidMesh& solid, const TetCounts& counts, const Job& job) {
+Result<SolidTets> solid_tets(const SolidMesh& solid, const TetCounts& counts, const Job& job) {
   const adapters::TetrahedraSize size{solid.moments().volume_mm3 / static_cast<double>(counts.few), 2.5};
   constexpr std::array deviations{2e-4, 4e-4, 8e-4, 1.6e-3, 3.2e-3};  // of the diagonal
   std::size_t found = 0;
   for (std::size_t n = 0; n < deviations.size(); ++n) {
     const bool is_last = n + 1 == deviations.size();
     const Job part = job.part(1 - 1.0 / static_cast<double>(n + 1), 1 - 1.0 / static_cast<double>(n + 2));
-    const auto coarse =
-        simplified_surface(solid.mesh(), deviations[n] * solid.box().diagonal(), nothing_spoilt, part.part(0, 0.4));
+    const double deviation_mm = deviations[n] * solid.box().diagonal();
+    const auto coarse = simplified_surface(solid.mesh(), deviation_mm, nothing_spoilt, part.part(0, 0.4));
     if (!coarse) return tl::unexpected(coarse.error());
     if (coarse->triangles.size() > few_triangles && !is_last) continue;
     auto tets = adapters::tetrahedralize(*coarse, void_points(*coarse), size, tetgen_limits, part.part(0.4, 1));
     if (!tets && (is_last || tets.error().code == ErrorCode::cancelled)) return tl::unexpected(tets.error());
     if (!tets) continue;
     found = tets->tets.size();
-    if (found <= counts.most) return tets;
+    if (found <= counts.most) return SolidTets{std::move(*tets), deviation_mm};
   }
   return fail(ErrorCode::over_budget,
               fmt::format("elasticity would take {} tetrahedra; at most {} are allowed", found, counts.most));

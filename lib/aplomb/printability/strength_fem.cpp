@@ -138,8 +138,7 @@ StressField field_of(const TetMesh& tets, const QuadraticTets& mesh,
     for (std::size_t corner = 0; corner < 4; ++corner) {
       const std::uint32_t v = tets.tets[t][corner];
       volumes[v] += volume;
-      for (std::size_t load = 0; load < 3; ++load)
-        sums[v][load] = sums[v][load] + volume * stresses[t][corner][load];
+      for (std::size_t load = 0; load < 3; ++load) sums[v][load] = sums[v][load] + volume * stresses[t][corner][load];
     }
   }
   TetSurface surface = surface_of(tets);
@@ -162,10 +161,11 @@ Result<FemStrength> measure_strength_fem(const PrintedSolid& printed, const Slic
     return strength;
   const auto tets = solid_tets(printed.solid, options.tets, job.part(0, 0.3));
   if (!tets) return tl::unexpected(tets.error());
-  const QuadraticTets mesh = quadratic_tets(*tets);
+  const QuadraticTets mesh = quadratic_tets(tets->mesh);
   const Bodies bodies = bodies_of(mesh);
   ElasticLoads loads;
-  for (const Vec3& node : mesh.nodes) loads.held.push_back(node.z <= slices.plate_mm + slices.layer_mm);
+  const double held_below_mm = slices.plate_mm + slices.layer_mm + tets->deviation_mm;
+  for (const Vec3& node : mesh.nodes) loads.held.push_back(node.z <= held_below_mm);
   strength.why_not = find_loose_body(mesh, bodies, loads.held);
   if (!strength.why_not.empty()) return strength;
   loads.forces_n = forces_on(mesh, bodies, slices.plate_mm, options.density_g_per_cm3);
@@ -179,7 +179,7 @@ Result<FemStrength> measure_strength_fem(const PrintedSolid& printed, const Slic
       exceeding_mm3);
   if (!job.report(0.97, "elasticity")) return cancelled();
   if (strength.places.empty()) return strength;
-  strength.field = field_of(*tets, mesh, stresses);
+  strength.field = field_of(tets->mesh, mesh, stresses);
   strength.field->measured_mpa = strength.places.front().measured;
   return strength;
 }

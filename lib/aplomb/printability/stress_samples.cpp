@@ -13,6 +13,7 @@ namespace aplomb::detail {
 namespace {
 
 constexpr std::size_t directions = 64;
+constexpr std::size_t stride = 4;  // a first look takes every fourth, 2 % off the worst at most
 double azimuth_rad(std::size_t direction) {
   return 2 * std::numbers::pi * static_cast<double>(direction) / static_cast<double>(directions);
 }
@@ -113,7 +114,7 @@ Stress pushed_towards(const LoadStress& stress, double azimuth) {
 
 double worst_push_mpa(const LoadStress& stress) {
   double worst = 0;
-  for (std::size_t d = 0; d < directions; ++d)
+  for (std::size_t d = 0; d < directions; d += stride)
     worst = std::max(worst, largest_principal_mpa(pushed_towards(stress, azimuth_rad(d))));
   return worst;
 }
@@ -144,7 +145,7 @@ std::vector<Place> exceeded_stress(const QuadraticTets& mesh, const std::vector<
   };
   std::vector<Sample> coarse, fine;
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) add_samples(t, tet_points, coarse);
-  const WorstByDirection about = worst_of(coarse, volume_mm3, [](std::size_t) { return true; });
+  const WorstByDirection about = worst_of(coarse, volume_mm3, [](std::size_t d) { return d % stride == 0; });
   const double about_mpa = worst_of(about).stress_mpa;
   if (!(about_mpa > 0)) return {};
 
@@ -157,8 +158,10 @@ std::vector<Place> exceeded_stress(const QuadraticTets& mesh, const std::vector<
   for (std::size_t t = 0; t < bounds.size(); ++t)
     if (bounds[t] >= 0.7 * about_mpa)
       add_samples(t, middles[std::size_t(level_of(tet_shape(mesh, t).volume_mm3, volume_mm3))], fine);
-  const WorstByDirection all =
-      worst_of(fine, volume_mm3, [&](std::size_t d) { return about[d].stress_mpa >= 0.95 * about_mpa; });
+  const WorstByDirection all = worst_of(fine, volume_mm3, [&](std::size_t d) {
+    const std::size_t before = d - d % stride, after = (before + stride) % directions;
+    return std::max(about[before].stress_mpa, about[after].stress_mpa) >= 0.93 * about_mpa;
+  });
   const Worst& worst = worst_of(all);
   if (worst.samples.empty()) return {};
   Place place{worst.stress_mpa, {}, {}};

@@ -96,9 +96,9 @@ Result<TetMesh> tetrahedralize(const TriangleMesh& surface, const std::vector<Ve
   if (size.most_mm3 > 0) switches += fmt::format("a{:.9f}", size.most_mm3);
   const auto bytes =
       run_isolated([&] { return tetgen_bytes(surface, void_points_mm, switches); }, limits, job, "tetrahedra");
-  if (!bytes) return fail(bytes.error().code, bytes.error().code == ErrorCode::cancelled
-                                                  ? bytes.error().message
-                                                  : "TetGen: " + bytes.error().message);
+  if (!bytes)
+    return fail(bytes.error().code, bytes.error().code == ErrorCode::cancelled ? bytes.error().message
+                                                                               : "TetGen: " + bytes.error().message);
   return mesh_of(*bytes);
 }
 

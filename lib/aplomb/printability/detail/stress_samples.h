@@ -16,7 +16,7 @@ using LoadStress = std::array<Stress, 3>;
 /// With the push in this direction.
 Stress pushed_towards(const LoadStress& stress, double azimuth_rad);
 
-/// Over all directions of the push.
+/// Of sixteen directions of the push: at most 2 % below the worst of all.
 double worst_push_mpa(const LoadStress& stress);
 
 /// At the four corners of every tetrahedron. \pre Three fields.
