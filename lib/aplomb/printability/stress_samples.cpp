@@ -27,10 +27,14 @@ Barycentric between(const Barycentric& a, const Barycentric& b) {
   return middle;
 }
 
-/// The middles of the 8^level tetrahedra of equal volume that a tetrahedron is halved into.
-void add_middles(const Corners& c, int level, std::vector<Barycentric>& middles) {
+/// Four points in each of the 8^level tetrahedra of equal volume that a tetrahedron is halved into.
+void add_points(const Corners& c, int level, std::vector<Barycentric>& points) {
   if (level == 0) {
-    middles.push_back(between(between(c[0], c[1]), between(c[2], c[3])));
+    for (const Barycentric& place : tet_points) {  // unlike its middle, they keep the spread within it
+      Barycentric& point = points.emplace_back();
+      for (std::size_t corner = 0; corner < 4; ++corner)
+        for (std::size_t k = 0; k < 4; ++k) point[k] += place[corner] * c[corner][k];
+    }
     return;
   }
   std::array<Barycentric, 6> m;
@@ -39,13 +43,13 @@ void add_middles(const Corners& c, int level, std::vector<Barycentric>& middles)
        {Corners{c[0], m[0], m[1], m[2]}, Corners{c[1], m[0], m[3], m[4]}, Corners{c[2], m[1], m[3], m[5]},
         Corners{c[3], m[2], m[4], m[5]}, Corners{m[0], m[5], m[1], m[2]}, Corners{m[0], m[5], m[2], m[4]},
         Corners{m[0], m[5], m[4], m[3]}, Corners{m[0], m[5], m[3], m[1]}})
-    add_middles(part, level - 1, middles);
+    add_points(part, level - 1, points);
 }
 
-std::vector<Barycentric> middles_of(int level) {
-  std::vector<Barycentric> middles;
-  add_middles({{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}}, level, middles);
-  return middles;
+std::vector<Barycentric> points_of(int level) {
+  std::vector<Barycentric> points;
+  add_points({{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}}, level, points);
+  return points;
 }
 
 struct Sample {
@@ -154,10 +158,10 @@ std::vector<Place> exceeded_stress(const QuadraticTets& mesh, const std::vector<
   tbb::parallel_for(std::size_t{0}, bounds.size(), [&](std::size_t t) {
     for (const LoadStress& corner : stresses[t]) bounds[t] = std::max(bounds[t], worst_push_mpa(corner));
   });
-  const std::array middles{middles_of(0), middles_of(1), middles_of(2), middles_of(3), middles_of(4)};
+  const std::array points{points_of(0), points_of(1), points_of(2), points_of(3), points_of(4)};
   for (std::size_t t = 0; t < bounds.size(); ++t)
     if (bounds[t] >= 0.7 * about_mpa)
-      add_samples(t, middles[std::size_t(level_of(tet_shape(mesh, t).volume_mm3, volume_mm3))], fine);
+      add_samples(t, points[std::size_t(level_of(tet_shape(mesh, t).volume_mm3, volume_mm3))], fine);
   const WorstByDirection all = worst_of(fine, volume_mm3, [&](std::size_t d) {
     const std::size_t before = d - d % stride, after = (before + stride) % directions;
     return std::max(about[before].stress_mpa, about[after].stress_mpa) >= 0.93 * about_mpa;
