@@ -38,6 +38,7 @@ void add_judging_flags(CLI::App* app, Arguments& a) {
   add_quantity(app, "--layer", job.rules.layer_mm, lengths, "height of a layer (default 0.2mm)");
   add_quantity(app, "--infill", job.infill_percent, percentages,
                "how much of the inside the slicer fills (default 100%)");
+  app->add_flag("--fem", job.fem, "judge the strength by elasticity, too: what bends, where beams are no beams");
 }
 
 }  // namespace aplomb::cli

@@ -9,6 +9,7 @@
 #include "aplomb/report/text.h"
 #include "comparison.h"
 #include "diagrams.h"
+#include "stress_picture.h"
 
 namespace aplomb::page {
 namespace {
@@ -85,6 +86,28 @@ Marks marks_of(const PageContent& content) {
   return found;
 }
 
+Result<std::string> figure_of(const picture::Image& image, const std::string& about, const std::string& caption = "") {
+  const auto png = picture::encode_png(image);
+  if (!png) return tl::unexpected(png.error());
+  return fmt::format("<figure><img alt=\"{}\" src=\"data:image/png;base64,{}\">{}</figure>\n", about, base64(*png),
+                     caption);
+}
+
+Result<std::string> stresses(const PageContent& content, const Job& job) {
+  if (!content.judgement || !content.judgement->stress) return "";
+  const StressField& field = *content.judgement->stress;
+  const auto image = picture::stress_picture(field, picture_size, job);
+  if (!image) return tl::unexpected(image.error());
+  return figure_of(*image, "The model from the front and from behind, darker where it is stressed more")
+      .map([&](const std::string& figure) {
+        return fmt::format(
+            "<h2>Where it is stressed</h2>\n{}<p>Under its own weight and a push of 10 N at its top, "
+            "in each place from whichever side is worst. 1 mm³ of what is judged exceeds {:.3g} MPa; "
+            "close to the plate, where it is held fast, and to the top nothing is judged.</p>\n",
+            figure, field.measured_mpa);
+      });
+}
+
 Result<std::string> pictures(const PageContent& content, const std::vector<picture::Mark>& marks, const Job& job) {
   const auto image =
       content.before && content.after
@@ -92,12 +115,8 @@ Result<std::string> pictures(const PageContent& content, const std::vector<pictu
           : picture::as_it_is(content.after ? *content.after : *content.before, content.poses, picture_size, marks,
                               job);
   if (!image) return tl::unexpected(image.error());
-  const auto png = picture::encode_png(*image);
-  if (!png) return tl::unexpected(png.error());
-  return fmt::format(
-      "<figure><img alt=\"The model, cut open and whole, with its centre of mass and support polygon\" "
-      "src=\"data:image/png;base64,{}\">{}</figure>\n",
-      base64(*png), marks.empty() ? "" : "<figcaption>Rings: places of what is listed below, by number.</figcaption>");
+  return figure_of(*image, "The model, cut open and whole, with its centre of mass and support polygon",
+                   marks.empty() ? "" : "<figcaption>Rings: places of what is listed below, by number.</figcaption>");
 }
 
 std::string diagrams(const PageContent& content) {
@@ -151,12 +170,14 @@ std::string checks(const Judgement& judgement) {
 Result<std::string> html_page(const PageContent& content, const Job& job) {
   assert(content.before || content.after);
   const Marks marks = marks_of(content);
-  const auto shown = pictures(content, marks.marks, job);
+  const auto shown = pictures(content, marks.marks, job.part(0, 0.6));
   if (!shown) return tl::unexpected(shown.error());
+  const auto stressed = stresses(content, job.part(0.6, 1));
+  if (!stressed) return tl::unexpected(stressed.error());
   const std::string title = escaped(content.title), said = escaped(headline(content));
   std::string body =
       fmt::format("<h1>{}</h1>\n<p class=\"model\">{}</p>\n{}{}", said, title, *shown, diagrams(content));
-  if (content.judgement) body += findings(*content.judgement, marks) + checks(*content.judgement);
+  if (content.judgement) body += findings(*content.judgement, marks) + *stressed + checks(*content.judgement);
   if (content.report)
     body += fmt::format("<h2>Before and after, in numbers</h2>\n<pre>{}</pre>\n", escaped(to_text(*content.report)));
   return fmt::format(

@@ -36,7 +36,12 @@ struct Subject {
   std::vector<Vec3> threads_mm = {};          ///< points from which it hangs: drawn as lines upward
   std::vector<Mark> marks = {};               ///< seen through the figure
   Colour colour = {0.66F, 0.29F, 0.17F};
+  std::vector<float> vertex_shares = {};  ///< by vertex: coloured by scale_colour() instead; empty: none
 };
+
+/// A scale of eight bands for shares in [0, 1], each darker than the one before: it reads without colour vision.
+Colour scale_colour(double share);
+inline constexpr int scale_bands = 8;
 
 /// A plane through `point`; what is on the side of `normal` is taken away.
 struct Cut {

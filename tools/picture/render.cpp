@@ -77,14 +77,20 @@ std::vector<char> void_triangles(const TriangleMesh& mesh) {
   return bounds_void;
 }
 
-Vec3 interpolated(const TriangleMesh& mesh, const Triangle& t, const std::array<Vec3, 3>& normal, Vec3 p) {
+/// Barycentric.
+std::array<double, 3> weights(const TriangleMesh& mesh, const Triangle& t, Vec3 p) {
   const Vec3 a = mesh.vertices[t[0]], b = mesh.vertices[t[1]], c = mesh.vertices[t[2]];
   const Vec3 n = cross(b - a, c - a);
   const double n2 = squared_norm(n);
-  if (n2 == 0) return normal[0];
+  if (n2 == 0) return {1, 0, 0};
   const double wb = dot(cross(p - a, c - a), n) / n2;
   const double wc = dot(cross(b - a, p - a), n) / n2;
-  const Vec3 sum = (1 - wb - wc) * normal[0] + wb * normal[1] + wc * normal[2];
+  return {1 - wb - wc, wb, wc};
+}
+
+Vec3 interpolated(const TriangleMesh& mesh, const Triangle& t, const std::array<Vec3, 3>& normal, Vec3 p) {
+  const auto [wa, wb, wc] = weights(mesh, t, p);
+  const Vec3 sum = wa * normal[0] + wb * normal[1] + wc * normal[2];
   const double length = norm(sum);
   return length > 0 ? sum / length : normal[0];
 }
@@ -214,11 +220,20 @@ class Drawing {
     Colour light = lights_.at(p, n, subset, shares);
     const float bounce = float(0.09 * (1 - n.z));
     light = {light.red + bounce + 0.04F, light.green + bounce + 0.04F, light.blue + bounce + 0.04F};
-    const Colour base = bounds_void_[t] ? void_colour : subject_.colour;
+    const Colour base = colour_at(t, p);
     Colour out = base * light;
     const double shine = std::max(0.0, dot(n, normalized(normalized(key_direction()) + camera_.back)));
     const float gloss = float(0.05 * std::pow(shine, 40.0)) * light.red;
     return {out.red + gloss, out.green + gloss, out.blue + gloss};
+  }
+
+  Colour colour_at(std::uint32_t t, Vec3 p) const {
+    if (subject_.vertex_shares.empty()) return bounds_void_[t] ? void_colour : subject_.colour;
+    const Triangle& corners = subject_.mesh.triangles[t];
+    const auto weight = weights(subject_.mesh, corners, p);
+    double share = 0;
+    for (std::size_t k = 0; k < 3; ++k) share += weight[k] * double(subject_.vertex_shares[corners[k]]);
+    return scale_colour(share);
   }
 
   /// The background, darker where the figure keeps light away: the plate has no visible end.

@@ -42,6 +42,7 @@ Result<JudgeOptions> judge_options(const JobFile& job) {
   auto rules = rules_of(job.rules);
   if (!rules) return tl::unexpected(rules.error());
   JudgeOptions options{std::move(*rules), {}, {.infill_ratio = job.infill_percent / 100}};
+  options.fem = job.fem;
   if (std::string problem = find_problem(options); !problem.empty())
     return fail(ErrorCode::invalid_option, std::move(problem));
   return options;

@@ -7,6 +7,7 @@
 
 #include "aplomb/core/vec.h"
 #include "aplomb/printability/rules.h"
+#include "aplomb/printability/stress_field.h"
 
 namespace aplomb {
 
@@ -54,8 +55,9 @@ struct CheckResult {
 /// What the judge says of a mesh.
 struct Judgement {
   Process process = Process::fdm;   ///< that it was judged for
-  std::vector<CheckResult> checks;  ///< every check of the process, in the order of check_rules()
+  std::vector<CheckResult> checks;  ///< every check of the process that was asked for, in the order of check_rules()
   std::vector<Finding> findings;    ///< in the same order
+  std::optional<StressField> stress{};  ///< of strength.fem, where that was judged
 
   /// No check failed that was not waived.
   bool passes() const;

@@ -15,6 +15,7 @@
 #include "aplomb/printability/remedies.h"
 #include "aplomb/printability/slices.h"
 #include "aplomb/printability/strength_ankle.h"
+#include "aplomb/printability/strength_fem.h"
 #include "aplomb/printability/void_base.h"
 #include "aplomb/printability/void_bridge.h"
 #include "aplomb/printability/void_cup.h"
@@ -72,6 +73,8 @@ class Collector {
     if (!rules_.limits(id)) return;
     judgement_.checks.push_back({std::string(id), Verdict::not_judged, false, 0, 0, std::move(why)});
   }
+
+  void show(StressField stress) { judgement_.stress = std::move(stress); }
 
   /// In the order of check_rules().
   Judgement judgement() {
@@ -173,8 +176,15 @@ class SolidJudge {
   }
 
   Result<void> layers(const Job& job) {
-    const auto slices = cut_slices(printed_, rules().layer_mm, job.part(0, 0.2));
+    const double fem_share = options_.fem ? 0.6 : 0;  // of the time
+    const auto slices = cut_slices(printed_, rules().layer_mm, job.part(0, 0.2 * (1 - fem_share)));
     if (!slices) return tl::unexpected(slices.error());
+    return sections(*slices, job.part(0, 1 - fem_share)).and_then([&] {
+      return fem(*slices, job.part(1 - fem_share, 1));
+    });
+  }
+
+  Result<void> sections(const Slices& slices, const Job& job) {
     using Measure = Result<std::vector<Place>> (*)(const PrintedSolid&, const Slices&, const Rules&, const Job&);
     constexpr std::array<std::pair<std::string_view, Measure>, 6> measures{{{"void.bridge", measure_void_bridge},
                                                                             {"void.slope", measure_void_slope},
@@ -185,12 +195,26 @@ class SolidJudge {
     for (std::size_t n = 0; n < measures.size(); ++n) {
       const auto& [id, measure] = measures[n];
       const double done = 0.2 + 0.1 * static_cast<double>(n);
-      if (const auto added = add(id, measure(printed_, *slices, rules(), job.part(done, done + 0.1))); !added)
+      if (const auto added = add(id, measure(printed_, slices, rules(), job.part(done, done + 0.1))); !added)
         return tl::unexpected(added.error());
     }
-    collector_.add("bed.contact", measure_bed_contact(*slices, rules()));
+    collector_.add("bed.contact", measure_bed_contact(slices, rules()));
     return add("strength.ankle",
-               measure_strength_ankle(printed_, *slices, rules(), options_.density_g_per_cm3, job.part(0.8, 1)));
+               measure_strength_ankle(printed_, slices, rules(), options_.density_g_per_cm3, job.part(0.8, 1)));
+  }
+
+  /// What elasticity cannot do is no reason to say nothing else.
+  Result<void> fem(const Slices& slices, const Job& job) {
+    constexpr std::string_view id = "strength.fem";
+    if (!options_.fem) return {};
+    auto strength =
+        measure_strength_fem(printed_, slices, rules(), {.density_g_per_cm3 = options_.density_g_per_cm3}, job);
+    if (!strength && strength.error().code == ErrorCode::cancelled) return tl::unexpected(strength.error());
+    if (!strength) collector_.leave_out(id, strength.error().message);
+    else if (!strength->why_not.empty()) collector_.leave_out(id, strength->why_not);
+    else collector_.add(id, strength->places);
+    if (strength && strength->field) collector_.show(std::move(*strength->field));
+    return {};
   }
 
   Result<void> stand() {
@@ -252,7 +276,8 @@ Result<Judgement> judge(const TriangleMesh& mesh, const JudgeOptions& options, c
   if (meant) collector.add("mesh.roundtrip", {{roundtrip_error_ratio(*meant, mesh), {}, {}}});
   if (!measured->solid) {
     for (const CheckRule& rule : check_rules())
-      if (rule.is_check && !rule.id.starts_with("mesh.")) collector.leave_out(rule.id, "the mesh is no solid");
+      if (rule.is_check && !rule.id.starts_with("mesh.") && (options.fem || rule.id != "strength.fem"))
+        collector.leave_out(rule.id, "the mesh is no solid");
     return collector.judgement();
   }
   if (const auto judged = SolidJudge(*measured->solid, options, collector).run(job.part(0.2, 1)); !judged)

@@ -34,6 +34,7 @@ struct JudgeOptions {
   std::optional<StandingPose> pose = StandingPose{};  ///< as it is printed and stands, up = +z; none: it does not stand
   Filling filling{};
   double density_g_per_cm3 = 1.24;  ///< in (0, 30); PLA
+  bool fem = false;                 ///< whether strength.fem is asked for, which takes seconds
 };
 
 /// A sentence that names field, value and range; empty when there is nothing to say.

@@ -8,7 +8,7 @@
 namespace aplomb {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 23> remedies{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 24> remedies{{
     {"mesh.manifold", "repair the mesh: `aplomb stand` does, and says what it decided"},
     {"mesh.orientation",
      "turn the shells round that are wound the wrong way: slicers fill a void that is wound like its outside"},
@@ -32,6 +32,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 23> remedies
     {"mass.gained",
      "print with more infill, or leave the void out: skins round it weigh more than the infill it saves"},
     {"strength.ankle", "make the weakest section thicker, or print it in another material or direction"},
+    {"strength.fem", "make it thicker there or round a sharp inner edge, or print it in another material or direction"},
     {"bed.contact", "print with a brim or raft"},
     {"print.stands", "print with a brim, raft or supports, or lay it another way"},
 }};

@@ -78,6 +78,11 @@ constexpr std::array rules{
     CheckRule{"mass.gained", "%", "mass that the voids add", most, {fails(0)}},
     CheckRule{
         "strength.ankle", "MPa", "stress in the weakest section", most, {fails(16.5), fails(40), fails(45), fails(5)}},
+    CheckRule{"strength.fem",
+              "MPa",
+              "stress that 1 mm3 of the material exceeds",
+              most,
+              {fails(16.5), fails(40), fails(45), fails(5)}},
     CheckRule{"bed.contact", "mm2", "area of the first layer", least, {warns(25), warns(25)}},
     CheckRule{"print.stands", "", "least share of the support that is left while it is printed", least, {warns(0)}},
 };

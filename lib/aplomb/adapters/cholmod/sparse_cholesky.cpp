@@ -84,9 +84,11 @@ Result<SparseCholesky> SparseCholesky::analyse(const SparseSymmetric& matrix) {
   auto impl = std::make_unique<Impl>();
   cholmod_sparse sparse = view(matrix);
   impl->factor = cholmod_analyze(&sparse, &impl->common);
-  if (!impl->factor) return fail(ErrorCode::third_party, "CHOLMOD could not analyse the system of the deformation");
+  if (!impl->factor) return fail(ErrorCode::third_party, "CHOLMOD could not analyse the sparse system");
   return SparseCholesky(std::move(impl));
 }
+
+double SparseCholesky::factor_bytes() const { return 8 * impl_->common.lnz; }
 
 bool SparseCholesky::factorise(const SparseSymmetric& matrix) {
   const OneThread one;

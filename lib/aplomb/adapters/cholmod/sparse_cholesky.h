@@ -27,6 +27,9 @@ class SparseCholesky {
   SparseCholesky& operator=(SparseCholesky&&) noexcept;
   ~SparseCholesky();
 
+  /// What the factors will take: 8 bytes a number that is not 0. Known before factorise() allocates it.
+  double factor_bytes() const;
+
   /// False: the matrix is not positive definite (or memory ran out), and there are no factors to solve with.
   /// \pre `matrix` has the analysed pattern.
   bool factorise(const SparseSymmetric& matrix);

@@ -93,6 +93,7 @@ void visit_job(const Visitor& v, JobFile& job) {
   v.value("threads", job.threads);
   v.value("layer_mm", job.rules.layer_mm);
   v.value("infill_percent", job.infill_percent);
+  v.value("fem", job.fem);
   v.list("limits", job.rules.limits, [](const Visitor& l, RuleLimit& limit) {
     l.value("check", limit.id);
     l.value("limit", limit.value);
