@@ -126,6 +126,16 @@ Result<Report> write_and_measure(const StandRun& made, const Arguments& a, const
   return report;
 }
 
+/// Writes the plugs of the escape holes as one file of several parts, laid where they belong.
+Result<void> write_plugs(const StandRun& made, const Arguments& a, const Job& job) {
+  if (a.job.plugs.empty() || made.holes.empty()) return {};
+  const auto parts = hole_plugs(made, job.part(0, 0.8));
+  if (!parts) return tl::unexpected(parts.error());
+  TriangleMesh all;
+  for (const TriangleMesh& plug : *parts) all = joined(std::move(all), plug);
+  return write_mesh(a.job.plugs, all, WriteOptions{a.job.plugs.stem().string(), remember_temp_file}, job.part(0.8, 1));
+}
+
 constexpr int picture_size = 600;  // pixels across one of its parts
 
 /// Draws what came, and what became of it where there is something.
@@ -171,10 +181,12 @@ int run_stand(const Arguments& a, const Input& input, const StandOptions& option
   if (writes) {
     StageSeconds seconds = made->report.stage_seconds;
     StageClock clock(seconds);
-    auto measured = write_and_measure(*made, a, options, job.part(0.8, 0.9));
+    auto measured = write_and_measure(*made, a, options, job.part(0.8, 0.88));
     if (!measured) return report_error(measured.error());
+    if (const auto plugged = write_plugs(*made, a, job.part(0.88, 0.9)); !plugged) return report_error(plugged.error());
     clock.lap("write");
     report = std::move(*measured);
+    if (!a.job.plugs.empty() && made->holes.empty()) report.hints.emplace_back("no escape holes were cut: no plugs");
     report.stage_seconds = std::move(seconds);
   }
   if (const auto drawn = draw(a, input, writes ? &*made : nullptr, options.poses, job.part(0.9, 0.95)); !drawn)
@@ -245,8 +257,9 @@ Result<void> save_job(const Arguments& a) {
 
 int run(const Arguments& a) {
   const JobFile& asked = a.job;
-  if (!asked.output.empty() && asked.output != "-")
-    if (const auto format = format_of(asked.output); !format) return report_error(format.error());
+  for (const std::filesystem::path& file : {asked.output, asked.plugs})
+    if (!file.empty() && file != "-")
+      if (const auto format = format_of(file); !format) return report_error(format.error());
   if (const auto saved = save_job(a); !saved) return report_error(saved.error());
   const ThreadLimit limit(asked.threads);
   ProgressLine progress(!a.quiet);
