@@ -57,8 +57,8 @@ WaysOut ways_out(const TriangleMesh& mesh, Process process) {
   ways.closed = void_closed(*cavities, rules).front().measured;
   if (const auto holes = void_holes(*cavities, rules); !holes.empty()) ways.holes = holes.front().measured;
   if (const auto places = void_hole_place(*cavities, rules); !places.empty()) ways.off_mm = places.front().measured;
-  for (const Place& cup : *measure_void_cup(print.printed, print.slices, rules))
-    ways.cups += cup.measured > 1 ? 1 : 0;
+  const auto cups = measure_void_cup(print.printed, print.slices, rules);
+  ways.cups = std::size_t(std::ranges::count_if(*cups, [](const Place& cup) { return cup.measured > 1; }));
   return ways;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "aplomb/holes/detail/channels.h"
 #include "aplomb/holes/detail/dips.h"
@@ -15,7 +16,7 @@ using detail::Channel;
 using detail::Channels;
 using detail::Dips;
 
-constexpr double seat_ratio = 0.25;    // of the bore: between seats
+constexpr double seat_ratio = 0.3;     // of the bore: between seats
 constexpr double sill_ratio = 0.4;     // of what may stay in a dip
 constexpr double apart_ratio = 0.52;   // of a void's diagonal: the judge asks for 0.5
 constexpr double low_ratio = 0.1;      // mm of channel that a mm of height may cost, for powder
@@ -45,29 +46,35 @@ class VoidHoles {
   }
 
  private:
-  using Filter = bool (*)(const Channel&);
-
   Vec3 inner_point() const {
     const auto lowest = std::ranges::min_element(surface_.vertices, {}, &Vec3::z);
     return *lowest;
   }
 
-  /// Seats in a part of the box, on a lattice that does not move with the void.
+  /// Seats in a part of the box, from a lattice that does not move with the void; one in a cell of the lattice.
   std::vector<Vec3> seats_in(const Box3& part, double spacing) const {
     std::vector<Vec3> seats;
+    std::set<std::array<long, 3>> cells;
+    const auto cell = [&](Vec3 at) {
+      return std::array{std::lround(at.x / spacing), std::lround(at.y / spacing), std::lround(at.z / spacing)};
+    };
     const auto first = [&](double from) { return std::ceil(from / spacing); };
     for (double i = first(part.min.x); i * spacing <= part.max.x; ++i)
       for (double j = first(part.min.y); j * spacing <= part.max.y; ++j)
         for (double k = first(part.min.z); k * spacing <= part.max.z; ++k)
-          if (const auto seat = channels_.seat({i * spacing, j * spacing, k * spacing})) seats.push_back(*seat);
+          if (const auto seat = channels_.seat({i * spacing, j * spacing, k * spacing}); seat && cells.insert(cell(*seat)).second)
+            seats.push_back(*seat);
     return seats;
   }
 
   /// The best of those that can be drilled.
-  std::optional<Hole> first_drillable(std::vector<Channel>& candidates) const {
+  std::optional<Hole> first_drillable(std::vector<Channel>& candidates,
+                                      double most_sill = std::numeric_limits<double>::infinity()) const {
     std::ranges::stable_sort(candidates, {}, &Channel::cost_mm);
-    for (Channel& candidate : candidates)
+    for (Channel& candidate : candidates) {
+      if (std::isfinite(most_sill) && channels_.sill_mm(candidate) > most_sill) continue;
       if (channels_.can_be_drilled(candidate, taken_)) return candidate.hole;
+    }
     return std::nullopt;
   }
 
@@ -122,7 +129,7 @@ class VoidHoles {
     const detail::Dip& dip = dips.dips[number];
     const double most_sill = dip.bottom_mm.z + sill_ratio * demand_.cup_mm, spacing = seat_ratio * channels_.bore_mm();
     if (const auto hole = earlier_hole([&](const Channel& c) {
-          return c.sill_mm() <= most_sill && dip_at(dips, c.hole.inside_mm) == number;
+          return channels_.sill_mm(c) <= most_sill && dip_at(dips, c.hole.inside_mm) == number;
         })) {
       taken_.push_back(*hole);
       return {};
@@ -136,14 +143,12 @@ class VoidHoles {
       slab.max.z = std::min(from + channels_.bore_mm(), box_.max.z);
       const bool is_bottom = from == dip.bottom_mm.z;
       auto found = draining(dips, number, slab, is_bottom ? most_sill : top, spacing);
-      if (!is_bottom) std::ranges::stable_sort(found, {}, [](const Channel& c) { return c.sill_mm(); });
-      std::optional<Hole> hole;
-      if (is_bottom) hole = first_drillable(found);
-      for (std::size_t i = 0; !is_bottom && !hole && i < found.size(); ++i)
-        if (channels_.can_be_drilled(found[i], taken_)) hole = found[i].hole;
+      if (!is_bottom)
+        for (Channel& channel : found) channel.cost_mm = channel.axis_sill_mm();  // the lowest
+      const auto hole = first_drillable(found, is_bottom ? most_sill : top);
       if (!hole) continue;
       if (is_bottom) taken_.push_back(*hole);
-      else dead_ends.push_back({dip.bottom_mm, Channel{*hole}.sill_mm() - 0.02});
+      else dead_ends.push_back({dip.bottom_mm, channels_.sill_mm({*hole}) - 0.02});
       return {};
     }
     if (number == 0) dead_ends.push_back({dip.bottom_mm});
@@ -163,8 +168,8 @@ class VoidHoles {
     std::vector<Channel> found;
     for (const Vec3& seat : seats_in(slab, spacing)) {
       if (seat.z - 0.5 * channels_.bore_mm() > most_sill + channels_.bore_mm() || dip_at(dips, seat) != number) continue;
-      for (const Channel& channel : channels_.channels_from(seat))
-        if (channel.sill_mm() <= most_sill) found.push_back(channel);
+      for (const Channel& channel : channels_.channels_from(seat, most_sill))
+        if (channel.axis_sill_mm() <= most_sill) found.push_back(channel);
     }
     return found;
   }

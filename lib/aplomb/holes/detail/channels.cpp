@@ -12,6 +12,7 @@ using adapters::SurfaceDistance;
 
 constexpr int ring_points = 12;
 constexpr double least_cos = 0.5;             // between a channel and the outside's normal at its mouth
+constexpr double least_cos_to_nearest = 0.3;  // between a channel and the shortest way out of its seat
 constexpr double uneven_ratio = 0.5;          // of the bore's radius: how far the rim may be from a flat one
 constexpr double free_ratio = 3;              // bores of free space before a mouth
 constexpr double most_walls = 4, most_bores = 2.5;  // of which a channel may be long, together
@@ -86,7 +87,7 @@ double Channel::lip_mm() const {
   return 0.5 * hole.bore_mm * std::sqrt(std::max(0.0, 1 - hole.outward.z * hole.outward.z));
 }
 
-double Channel::sill_mm() const { return std::max(hole.at(hole.throat_mm).z, hole.at(hole.mouth_mm).z) - lip_mm(); }
+double Channel::axis_sill_mm() const { return std::max(hole.at(hole.throat_mm).z, hole.at(hole.mouth_mm).z) - lip_mm(); }
 
 Channels::Channels(const TriangleMesh& outer, const TriangleMesh& surface, const HoleDemand& demand,
                    const HoleFences& fences)
@@ -152,11 +153,32 @@ std::optional<Channel> Channels::channel(Vec3 seat, Vec3 outward) const {
   return channel;
 }
 
-std::vector<Channel> Channels::channels_from(Vec3 seat) const {
+std::vector<Channel> Channels::channels_from(Vec3 seat, double most_sill) const {
   std::vector<Channel> found;
-  for (const Vec3& direction : directions_)
+  const auto nearest = outer_.closest(seat);
+  const double to_outside = nearest.distance_mm;
+  const Vec3 nearest_way = normalized(outer_.closest_point(seat, nearest.triangle) - seat);
+  const double most = most_walls * demand_.wall_mm + most_bores * bore_mm();
+  for (const Vec3& direction : directions_) {
+    if (dot(direction, nearest_way) < least_cos_to_nearest) continue;
+    const double lip = 0.5 * bore_mm() * std::sqrt(std::max(0.0, 1 - direction.z * direction.z));
+    const double least_rise = direction.z >= 0 ? direction.z * to_outside : direction.z * most;
+    if (seat.z + least_rise - lip > most_sill) continue;
     if (auto one = channel(seat, direction)) found.push_back(*one);
+  }
   return found;
+}
+
+double Channels::sill_mm(const Channel& channel) const {
+  const Hole& hole = channel.hole;
+  double sill = std::numeric_limits<double>::infinity();
+  for (const Vec3& from : ring_of(hole, 0.48 * hole.bore_mm)) {
+    const auto mouth = way_out_mm(outer_, from, hole.outward, 2 * hole.mouth_mm);
+    const auto throat = way_out_mm(inner_, from, hole.outward, 2 * hole.mouth_mm);
+    if (mouth && throat && *throat > 0)
+      sill = std::min(sill, from.z + std::max(*throat * hole.outward.z, *mouth * hole.outward.z));
+  }
+  return sill;
 }
 
 bool Channels::has_room(Channel& channel) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -15,8 +16,8 @@ struct Channel {
   double looks_up = 0;  ///< z of the outside's normal at the mouth
   double cost_mm = 0;   ///< of what serves, the least is taken
 
-  /// The highest that its lower lip gets on the way out.
-  double sill_mm() const;
+  /// About the highest that its lower lip gets on the way out: see Channels::sill_mm().
+  double axis_sill_mm() const;
   /// The lower and the upper lip of its throat.
   double lower_lip_mm() const { return hole.at(hole.throat_mm).z - lip_mm(); }
   double upper_lip_mm() const { return hole.at(hole.throat_mm).z + lip_mm(); }
@@ -36,7 +37,11 @@ class Channels {
   std::optional<Vec3> seat(Vec3 point_mm) const;
   /// From a seat outward: the axis alone is looked at.
   std::optional<Channel> channel(Vec3 seat_mm, Vec3 outward) const;
-  std::vector<Channel> channels_from(Vec3 seat_mm) const;
+  /// In many directions; only those that may have a sill this low.
+  std::vector<Channel> channels_from(Vec3 seat_mm,
+                                     double most_sill_mm = std::numeric_limits<double>::infinity()) const;
+  /// The height from which liquid runs out: that of the lowest way along the channel's side from void to outside.
+  double sill_mm(const Channel& channel) const;
   /// Whether it can be drilled; gives the hole its end.
   bool can_be_drilled(Channel& channel, std::span<const Hole> others) const;
 
