@@ -86,8 +86,8 @@ Result<Attempt> attempt_carving(const Input& input, const StandOptions& asked, S
   const auto joint = joint_problem(input.solid.mesh(), options.poses, kind_of(options));
   if (!joint) return tl::unexpected(joint.error());
   const bool drills = hole_demand(options).has_value();
-  auto made = carve_shell(*volume, input, *joint, options, {{}, aimed_beyond_rad}, clock,
-                          job.part(0.4, drills ? 0.6 : 1));
+  auto made =
+      carve_shell(*volume, input, *joint, options, {{}, aimed_beyond_rad}, clock, job.part(0.4, drills ? 0.6 : 1));
   if (!made || !made->shell || !drills) return made;
   return drained(std::move(*made), input, options, clock, job.part(0.6, 1));
 }

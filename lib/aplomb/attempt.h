@@ -25,7 +25,7 @@ struct Attempt {
 
 /// What a carving reckons with.
 struct CarvingAllowance {
-  Moments taken;         ///< of the material that will be taken besides the void
+  Moments taken;          ///< of the material that will be taken besides the void
   double beyond_rad = 0;  ///< by which the angle asked for is to be exceeded at first
 };
 

@@ -41,7 +41,11 @@ HoleFences fences_of(const StandOptions& options) {
 class Drainer {
  public:
   Drainer(Attempt made, const Input& input, const StandOptions& options, StageClock& clock)
-      : made_(std::move(made)), input_(input), options_(options), clock_(clock), demand_(*hole_demand(options)),
+      : made_(std::move(made)),
+        input_(input),
+        options_(options),
+        clock_(clock),
+        demand_(*hole_demand(options)),
         fences_(fences_of(options)) {}
 
   Result<Attempt> run(const Job& job) {
@@ -141,8 +145,8 @@ StandOptions with_voids_for_holes(StandOptions options) {
   if (!demand) return options;
   const double radius = 0.5 * demand->bore_mm();
   options.least_void_mm = std::max(options.least_void_mm, 2 * radius);
-  options.least_volume_mm3 = std::max(options.least_volume_mm3,
-                                      least_volume_balls * 4 / 3 * std::numbers::pi * radius * radius * radius);
+  options.least_volume_mm3 =
+      std::max(options.least_volume_mm3, least_volume_balls * 4 / 3 * std::numbers::pi * radius * radius * radius);
   return options;
 }
 

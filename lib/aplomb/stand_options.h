@@ -30,7 +30,7 @@ struct StandOptions {
   bool robust = false;              ///< asked of the robust tip angles instead of the nominal ones
   CarveAim aim = CarveAim::least;
   Deform deform = Deform::never;
-  ReshapeOptions reshape = {};          ///< its wall_mm and carves follow from the rest
+  ReshapeOptions reshape = {};  ///< its wall_mm and carves follow from the rest
   Holes holes = Holes::automatic;
   double wall_mm = 1.6;                 ///< > 0; four lines of a 0.4 mm nozzle
   std::optional<double> voxel_mm = {};  ///< none: at least 4 voxels in the wall and about 256 on the diagonal

@@ -22,7 +22,9 @@ struct Hollow {
   TriangleMesh mesh() const { return test::with_void(outer, inner); }
 };
 
-Hollow ball() { return {rounded_to_float(test::sphere({0, 0, 20}, 20, 4)), rounded_to_float(test::sphere({0, 0, 20}, 17, 4))}; }
+Hollow ball() {
+  return {rounded_to_float(test::sphere({0, 0, 20}, 20, 4)), rounded_to_float(test::sphere({0, 0, 20}, 17, 4))};
+}
 Hollow box() { return {test::box({-20, -15, 0}, {20, 15, 30}), test::box({-16, -11, 4}, {16, 11, 26})}; }
 /// An arch on two legs.
 Hollow arch() {
@@ -34,7 +36,8 @@ Hollow arch() {
 
 const Pose on_its_feet{};
 
-Result<HoleChoice> chosen(const Hollow& hollow, Process process, std::vector<BallRegion> kept = {}, const Job& job = {}) {
+Result<HoleChoice> chosen(const Hollow& hollow, Process process, std::vector<BallRegion> kept = {},
+                          const Job& job = {}) {
   return choose_holes(hollow.outer, std::array{hollow.inner}, *hole_demand(Rules(process)),
                       {{&on_its_feet, 1}, std::move(kept)}, {}, job);
 }
@@ -45,6 +48,7 @@ Drilled drilled(const Hollow& hollow, Process process) {
 
 /// What the judge measures of the ways out.
 struct WaysOut {
+  bool is_cavity = false;  ///< narrow ways out: else it is an open vase, which needs no holes
   double closed = 0, holes = 0, off_mm = 0;
   std::size_t cups = 0;
 };
@@ -54,7 +58,8 @@ WaysOut ways_out(const TriangleMesh& mesh, Process process) {
   const test::Print print = test::print_of(mesh);
   const auto cavities = find_cavities(print.printed, rules);
   WaysOut ways;
-  ways.closed = void_closed(*cavities, rules).front().measured;
+  ways.is_cavity = !cavities->empty();
+  if (ways.is_cavity) ways.closed = void_closed(*cavities, rules).front().measured;
   if (const auto holes = void_holes(*cavities, rules); !holes.empty()) ways.holes = holes.front().measured;
   if (const auto places = void_hole_place(*cavities, rules); !places.empty()) ways.off_mm = places.front().measured;
   const auto cups = measure_void_cup(print.printed, print.slices, rules);
@@ -69,7 +74,7 @@ TEST_P(EscapeHoles, OpenWhatTheJudgeFoundClosedAsWidelyAndWhereTheProcessAsks) {
     ASSERT_EQ(ways_out(hollow.mesh(), GetParam()).closed, 1);
     const WaysOut after = ways_out(drilled(hollow, GetParam()).mesh, GetParam());
     EXPECT_EQ(after.closed, 0);
-    EXPECT_GE(after.holes, 2);
+    if (after.is_cavity) EXPECT_GE(after.holes, 2);
     EXPECT_LE(after.off_mm, 2);
     EXPECT_EQ(after.cups, 0U);
   }

@@ -13,10 +13,10 @@ namespace aplomb {
 
 /// A mesh with holes in it.
 struct Drilled {
-  TriangleMesh mesh;              ///< bounds a solid
-  std::size_t untouched = 0;      ///< the first triangles: the given mesh's own, in their order
+  TriangleMesh mesh;                ///< bounds a solid
+  std::size_t untouched = 0;        ///< the first triangles: the given mesh's own, in their order
   std::size_t untouched_outer = 0;  ///< of these, those that were among its first outer_triangles
-  std::vector<Hole> holes;        ///< as they were drilled: the prism of one may be turned
+  std::vector<Hole> holes;          ///< as they were drilled: the prism of one may be turned
 };
 
 /// Cuts the prisms of the holes out of a solid (CGAL's corefinement, in a child process). What the prisms do not cut

@@ -16,10 +16,10 @@ using detail::Channel;
 using detail::Channels;
 using detail::Dips;
 
-constexpr double seat_ratio = 0.3;     // of the bore: between seats
-constexpr double sill_ratio = 0.4;     // of what may stay in a dip
-constexpr double apart_ratio = 0.52;   // of a void's diagonal: the judge asks for 0.5
-constexpr double low_ratio = 0.1;      // mm of channel that a mm of height may cost, for powder
+constexpr double seat_ratio = 0.3;    // of the bore: between seats
+constexpr double sill_ratio = 0.4;    // of what may stay in a dip
+constexpr double apart_ratio = 0.52;  // of a void's diagonal: the judge asks for 0.5
+constexpr double low_ratio = 0.1;     // mm of channel that a mm of height may cost, for powder
 constexpr double most_seats = 1500;
 constexpr std::size_t most_drillable = 250;
 
@@ -28,10 +28,15 @@ class VoidHoles {
  public:
   VoidHoles(const TriangleMesh& outer, const TriangleMesh& surface, const HoleDemand& demand, const HoleFences& fences,
             std::vector<Hole> earlier, std::vector<Hole>& others)
-      : surface_(surface), box_(bounding_box(surface)), demand_(demand), channels_(outer, surface, demand, fences),
-        earlier_(std::move(earlier)), taken_(others), first_own_(others.size()) {}
+      : surface_(surface),
+        box_(bounding_box(surface)),
+        demand_(demand),
+        channels_(outer, surface, demand, fences),
+        earlier_(std::move(earlier)),
+        taken_(others),
+        first_own_(others.size()) {}
 
-  /// Adds the holes to the taken ones, or dead ends; no hole where there are dead ends.
+  /// Adds the holes to the taken ones, and dead ends; a void that is one altogether has no holes.
   Result<void> choose(std::vector<DeadEnd>& dead_ends, const Job& job) {
     const std::size_t dead_before = dead_ends.size();
     if (demand_.drains) {
@@ -40,8 +45,9 @@ class VoidHoles {
       return spread;
     }
     const bool is_short = taken_.size() - first_own_ < static_cast<std::size_t>(demand_.holes);
-    if (is_short && dead_ends.size() == dead_before) dead_ends.push_back({inner_point()});
-    if (dead_ends.size() > dead_before) taken_.resize(first_own_);
+    if (!is_short) return {};
+    taken_.resize(first_own_);
+    if (dead_ends.size() == dead_before) dead_ends.push_back({inner_point()});
     return {};
   }
 
@@ -62,7 +68,8 @@ class VoidHoles {
     for (double i = first(part.min.x); i * spacing <= part.max.x; ++i)
       for (double j = first(part.min.y); j * spacing <= part.max.y; ++j)
         for (double k = first(part.min.z); k * spacing <= part.max.z; ++k)
-          if (const auto seat = channels_.seat({i * spacing, j * spacing, k * spacing}); seat && cells.insert(cell(*seat)).second)
+          if (const auto seat = channels_.seat({i * spacing, j * spacing, k * spacing});
+              seat && cells.insert(cell(*seat)).second)
             seats.push_back(*seat);
     return seats;
   }
@@ -103,7 +110,6 @@ class VoidHoles {
     const Dips dips = detail::dips_of(surface_, 0.8 * demand_.cup_mm);
     for (std::uint32_t d = 0; d < dips.dips.size(); ++d)
       if (const auto done = drain_dip(dips, d, dead_ends, job); !done) return done;
-    if (!dead_ends.empty()) return {};
     while (taken_.size() - first_own_ < static_cast<std::size_t>(std::max(demand_.holes, 2))) {
       const auto vent = highest(job);
       if (!vent) return tl::unexpected(vent.error());
@@ -167,7 +173,8 @@ class VoidHoles {
                                 double spacing) const {
     std::vector<Channel> found;
     for (const Vec3& seat : seats_in(slab, spacing)) {
-      if (seat.z - 0.5 * channels_.bore_mm() > most_sill + channels_.bore_mm() || dip_at(dips, seat) != number) continue;
+      if (seat.z - 0.5 * channels_.bore_mm() > most_sill + channels_.bore_mm() || dip_at(dips, seat) != number)
+        continue;
       for (const Channel& channel : channels_.channels_from(seat, most_sill))
         if (channel.axis_sill_mm() <= most_sill) found.push_back(channel);
     }
@@ -285,7 +292,8 @@ class VoidHoles {
 std::vector<Hole> holes_of(std::span<const Hole> holes, const TriangleMesh& surface) {
   const adapters::SurfaceDistance distance(surface);
   std::vector<Hole> own(holes.begin(), holes.end());
-  std::erase_if(own, [&](const Hole& hole) { return !distance.inside(hole.inside_mm, distance.closest(hole.inside_mm)); });
+  std::erase_if(own,
+                [&](const Hole& hole) { return !distance.inside(hole.inside_mm, distance.closest(hole.inside_mm)); });
   return own;
 }
 

@@ -15,14 +15,14 @@ namespace aplomb {
 
 /// Where no hole may be.
 struct HoleFences {
-  std::span<const Pose> poses{};           ///< what touches the plate, and what hangs
-  std::vector<BallRegion> kept{};          ///< no mouth in or near them
+  std::span<const Pose> poses{};   ///< what touches the plate, and what hangs
+  std::vector<BallRegion> kept{};  ///< no mouth in or near them
 };
 
 /// A part of a void that must not be carved, for no hole reaches it.
 struct DeadEnd {
-  Vec3 seed_mm;                                                 ///< in the void
-  double below_mm = std::numeric_limits<double>::infinity();    ///< what hangs together with the seed below this height
+  Vec3 seed_mm;                                               ///< in the void
+  double below_mm = std::numeric_limits<double>::infinity();  ///< what hangs together with the seed below this height
 };
 
 struct HoleChoice {

@@ -49,7 +49,8 @@ SolidVolume without_part(const SolidVolume& volume, const VoidField& field, Vec3
     const double above = std::min(below_mm - height(at), 2 * frame.voxel_mm);
     const float raised = std::min(region->background(), static_cast<float>(above));
     region->tree().setValueOnly(at, std::max(region->tree().getValue(at), raised));
-    for (const Coord& step : std::array<Coord, 6>{Coord{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}})
+    for (const Coord& step :
+         std::array<Coord, 6>{Coord{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}})
       reach(at + step);
   }
   return SolidVolume(

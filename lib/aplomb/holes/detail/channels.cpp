@@ -11,12 +11,12 @@ namespace {
 using adapters::SurfaceDistance;
 
 constexpr int ring_points = 12;
-constexpr double least_cos = 0.5;             // between a channel and the outside's normal at its mouth
-constexpr double least_cos_to_nearest = 0.3;  // between a channel and the shortest way out of its seat
-constexpr double uneven_ratio = 0.5;          // of the bore's radius: how far the rim may be from a flat one
-constexpr double free_ratio = 3;              // bores of free space before a mouth
+constexpr double least_cos = 0.5;                   // between a channel and the outside's normal at its mouth
+constexpr double least_cos_to_nearest = 0.3;        // between a channel and the shortest way out of its seat
+constexpr double uneven_ratio = 0.5;                // of the bore's radius: how far the rim may be from a flat one
+constexpr double free_ratio = 3;                    // bores of free space before a mouth
 constexpr double most_walls = 4, most_bores = 2.5;  // of which a channel may be long, together
-constexpr double hiding_mm = 3;               // of channel that a mouth may cost to look sideways instead of up
+constexpr double hiding_mm = 3;                     // of channel that a mouth may cost to look sideways instead of up
 constexpr double fence_mm = 1;
 constexpr double over_contact_mm = 0.3;
 
@@ -87,11 +87,17 @@ double Channel::lip_mm() const {
   return 0.5 * hole.bore_mm * std::sqrt(std::max(0.0, 1 - hole.outward.z * hole.outward.z));
 }
 
-double Channel::axis_sill_mm() const { return std::max(hole.at(hole.throat_mm).z, hole.at(hole.mouth_mm).z) - lip_mm(); }
+double Channel::axis_sill_mm() const {
+  return std::max(hole.at(hole.throat_mm).z, hole.at(hole.mouth_mm).z) - lip_mm();
+}
 
 Channels::Channels(const TriangleMesh& outer, const TriangleMesh& surface, const HoleDemand& demand,
                    const HoleFences& fences)
-    : outer_mesh_(outer), demand_(demand), fences_(fences), outer_(outer), inner_(surface),
+    : outer_mesh_(outer),
+      demand_(demand),
+      fences_(fences),
+      outer_(outer),
+      inner_(surface),
       directions_(all_directions()) {
   for (const Pose& pose : fences.poses)
     if (const StandingPose* standing = pose.standing()) {
@@ -252,8 +258,7 @@ bool Channels::is_fenced(const Hole& hole) const {
 bool Channels::can_be_drilled(Channel& channel, std::span<const Hole> others) const {
   if (is_fenced(channel.hole) || !has_room(channel) || is_fenced(channel.hole)) return false;
   const double apart = 1.04 * channel.hole.bore_mm + demand_.wall_mm;
-  return std::ranges::all_of(others,
-                             [&](const Hole& other) { return distance_between(channel.hole, other) >= apart; });
+  return std::ranges::all_of(others, [&](const Hole& other) { return distance_between(channel.hole, other) >= apart; });
 }
 
 }  // namespace aplomb::detail

@@ -38,8 +38,7 @@ class Channels {
   /// From a seat outward: the axis alone is looked at.
   std::optional<Channel> channel(Vec3 seat_mm, Vec3 outward) const;
   /// In many directions; only those that may have a sill this low.
-  std::vector<Channel> channels_from(Vec3 seat_mm,
-                                     double most_sill_mm = std::numeric_limits<double>::infinity()) const;
+  std::vector<Channel> channels_from(Vec3 seat_mm, double most_sill_mm = std::numeric_limits<double>::infinity()) const;
   /// The height from which liquid runs out: that of the lowest way along the channel's side from void to outside.
   double sill_mm(const Channel& channel) const;
   /// Whether it can be drilled; gives the hole its end.

@@ -40,8 +40,11 @@ std::vector<Vec3> vertex_normals(const TriangleMesh& mesh) {
 class Flood {
  public:
   Flood(const TriangleMesh& mesh, double least_depth_mm)
-      : mesh_(mesh), least_depth_(least_depth_mm), parents_(mesh.vertices.size(), Dips::none),
-        dips_of_roots_(mesh.vertices.size(), Dips::none), first_dips_(mesh.vertices.size(), Dips::none) {}
+      : mesh_(mesh),
+        least_depth_(least_depth_mm),
+        parents_(mesh.vertices.size(), Dips::none),
+        dips_of_roots_(mesh.vertices.size(), Dips::none),
+        first_dips_(mesh.vertices.size(), Dips::none) {}
 
   /// \pre Every lower vertex was added.
   void add(std::uint32_t v, const Neighbours& neighbours, bool looks_down) {

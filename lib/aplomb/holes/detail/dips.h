@@ -11,12 +11,13 @@ namespace aplomb::detail {
 /// A place of a void in which liquid stays: a lowest point, and how high it may rise before it runs off to a lower one.
 struct Dip {
   Vec3 bottom_mm;
-  double pass_mm = std::numeric_limits<double>::infinity();  ///< height at which it runs over; the lowest dip never does
+  double pass_mm =
+      std::numeric_limits<double>::infinity();  ///< height at which it runs over; the lowest dip never does
 };
 
 struct Dips {
   static constexpr std::uint32_t none = 0xFFFFFFFF;
-  std::vector<Dip> dips;              ///< lowest first
+  std::vector<Dip> dips;                 ///< lowest first
   std::vector<std::uint32_t> of_vertex;  ///< the dip that a vertex lies in, below its pass; else none
 };
 
