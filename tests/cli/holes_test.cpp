@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -43,7 +44,7 @@ TEST_F(DrillingCommand, CutsHolesThatTheJudgeAsksForAndStandsWithThem) {
 }
 
 TEST_F(DrillingCommand, WritesAPlugForEachHoleThatClosesItAndNoMore) {
-  const auto r = report("--process powder --plugs " + path("plugs.stl"));
+  const auto r = report("--process powder --wall 2mm --plugs " + path("plugs.stl"));
   const auto plugs = read_mesh(path("plugs.stl"));
   ASSERT_TRUE(plugs.has_value());
   EXPECT_EQ(test::solid_of(rounded_to_float(plugs->objects.front().mesh)).bodies(), r.at("holes").size());
