@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "aplomb/drained.h"
+
 namespace aplomb {
 namespace {
 
@@ -14,27 +16,6 @@ constexpr double bent_beyond_rad =
     0.03 * std::numbers::pi / 180;  // beyond what a bend came short of: carving keeps more
 constexpr int most_bends = 3;
 constexpr int most_reshapings = most_bends + 1;  // the first may be a cut alone
-
-Result<Attempt> carve_shell(const SolidVolume& volume, const Input& input, const JointProblem& joint,
-                            const StandOptions& options, StageClock& clock, const Job& job) {
-  const double required_rad = std::atan(joint.required_t);
-  double aimed_rad = required_rad + aimed_beyond_rad;
-  for (int round = 1;; ++round) {
-    const CarveOptions carving_options{options.aim, std::tan(aimed_rad), options.least_volume_mm3};
-    auto carving = carve(volume, input.moments, joint.problem, carving_options, job.part(0, 0.3));
-    if (!carving) return tl::unexpected(carving.error());
-    clock.lap("carve");
-    carving->reaches = carving->t >= joint.required_t;
-    if (!carving->reaches) return Attempt{joint, std::move(*carving), std::nullopt};
-    auto shell = build_shell(input.solid, carving->field, {.wall_mm = options.wall_mm}, job.part(0.3, 1));
-    if (!shell) return tl::unexpected(shell.error());
-    clock.lap("shell");
-    const double short_rad = required_rad - std::atan(largest_t(joint.problem, moments(shell->mesh)));
-    if (short_rad <= 0 || options.aim == CarveAim::stable || round == most_carvings)
-      return Attempt{joint, std::move(*carving), std::move(*shell)};
-    aimed_rad += short_rad + aimed_beyond_rad;
-  }
-}
 
 DeformationFigures figures_of(const Reshaper& reshaper, const Reshaping& reshaping) {
   constexpr std::array<const char*, 3> outcomes{"reached", "limit", "stuck"};
@@ -72,7 +53,30 @@ double shortfall_t(const ReshapedAttempt& reshaped, const JointProblem& joint) {
 
 }  // namespace
 
-Result<Attempt> attempt_carving(const Input& input, const StandOptions& options, StageClock& clock, const Job& job) {
+Result<Attempt> carve_shell(const SolidVolume& volume, const Input& input, const JointProblem& joint,
+                            const StandOptions& options, const CarvingAllowance& allowance, StageClock& clock,
+                            const Job& job) {
+  const double required_rad = std::atan(joint.required_t);
+  double aimed_rad = required_rad + allowance.beyond_rad;
+  for (int round = 1;; ++round) {
+    const CarveOptions carving_options{options.aim, std::tan(aimed_rad), options.least_volume_mm3};
+    auto carving = carve(volume, input.moments - allowance.taken, joint.problem, carving_options, job.part(0, 0.3));
+    if (!carving) return tl::unexpected(carving.error());
+    clock.lap("carve");
+    carving->reaches = carving->t >= joint.required_t;
+    if (!carving->reaches) return Attempt{joint, std::move(*carving), std::nullopt, volume};
+    auto shell = build_shell(input.solid, carving->field, {.wall_mm = options.wall_mm}, job.part(0.3, 1));
+    if (!shell) return tl::unexpected(shell.error());
+    clock.lap("shell");
+    const double short_rad = required_rad - std::atan(largest_t(joint.problem, moments(shell->mesh) - allowance.taken));
+    if (short_rad <= 0 || options.aim == CarveAim::stable || round == most_carvings)
+      return Attempt{joint, std::move(*carving), std::move(*shell), volume};
+    aimed_rad += short_rad + aimed_beyond_rad;
+  }
+}
+
+Result<Attempt> attempt_carving(const Input& input, const StandOptions& asked, StageClock& clock, const Job& job) {
+  const StandOptions options = with_voids_for_holes(asked);
   const double voxel = voxel_mm(options, input.solid.box());
   const auto volume =
       voxelize(input.solid, {options.wall_mm, voxel, std::min(options.least_void_mm, 32 * voxel), options.memory_bytes},
@@ -81,15 +85,24 @@ Result<Attempt> attempt_carving(const Input& input, const StandOptions& options,
   clock.lap("voxelize");
   const auto joint = joint_problem(input.solid.mesh(), options.poses, kind_of(options));
   if (!joint) return tl::unexpected(joint.error());
-  return carve_shell(*volume, input, *joint, options, clock, job.part(0.4, 1));
+  const bool drills = hole_demand(options).has_value();
+  auto made =
+      carve_shell(*volume, input, *joint, options, {{}, aimed_beyond_rad}, clock, job.part(0.4, drills ? 0.6 : 1));
+  if (!made || !made->shell || !drills) return made;
+  return drained(std::move(*made), input, options, clock, job.part(0.6, 1));
 }
 
-Result<void> add_shell(Attempt& attempt, const Input& input, const StandOptions& options, StageClock& clock,
+Result<void> add_shell(Attempt& attempt, const Input& input, const StandOptions& asked, StageClock& clock,
                        const Job& job) {
-  auto shell = build_shell(input.solid, attempt.carving.field, {.wall_mm = options.wall_mm}, job);
+  const StandOptions options = with_voids_for_holes(asked);
+  auto shell = build_shell(input.solid, attempt.carving.field, {.wall_mm = options.wall_mm}, job.part(0, 0.3));
   if (!shell) return tl::unexpected(shell.error());
   attempt.shell = std::move(*shell);
   clock.lap("shell");
+  if (!hole_demand(options)) return {};
+  auto made = drained(std::move(attempt), input, options, clock, job.part(0.3, 1));
+  if (!made) return tl::unexpected(made.error());
+  attempt = std::move(*made);
   return {};
 }
 

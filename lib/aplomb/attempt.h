@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "aplomb/core/stage_clock.h"
+#include "aplomb/holes/hole.h"
 #include "aplomb/input.h"
 #include "aplomb/report/report.h"
 #include "aplomb/shell/shell.h"
@@ -16,16 +17,31 @@ namespace aplomb {
 struct Attempt {
   JointProblem joint;
   Carving carving;
-  std::optional<Shell> shell;  ///< where it reaches, or add_shell() was called
+  std::optional<Shell> shell;         ///< where it reaches, or add_shell() was called; drilled where it has holes
+  std::optional<SolidVolume> volume;  ///< that was carved
+  std::vector<Hole> holes{};
+  std::vector<std::string> hints{};
 };
 
-/// Voxelises, carves and builds the shell; where simplifying it cost more than was aimed beyond, carves again for as
-/// much more. \return as voxelize(), joint_problem(), carve() and build_shell().
+/// What a carving reckons with.
+struct CarvingAllowance {
+  Moments taken;          ///< of the material that will be taken besides the void
+  double beyond_rad = 0;  ///< by which the angle asked for is to be exceeded at first
+};
+
+/// Carves and builds the shell; where simplifying it cost more than was aimed beyond, carves again for as much more.
+/// \return as carve() and build_shell().
+Result<Attempt> carve_shell(const SolidVolume& volume, const Input& input, const JointProblem& joint,
+                            const StandOptions& options, const CarvingAllowance& allowance, StageClock& clock,
+                            const Job& job);
+
+/// Voxelises, carves and builds the shell, with the escape holes that the process asks for. \return as voxelize(),
+/// joint_problem(), carve_shell() and drained().
 ///
 /// The shell is left out where the carving does not reach: see add_shell().
 Result<Attempt> attempt_carving(const Input& input, const StandOptions& options, StageClock& clock, const Job& job);
 
-/// Builds the shell of a carving that does not reach. \return as build_shell().
+/// Builds the shell of a carving that does not reach, with escape holes. \return as build_shell() and drained().
 Result<void> add_shell(Attempt& attempt, const Input& input, const StandOptions& options, StageClock& clock,
                        const Job& job);
 

@@ -9,6 +9,7 @@
 #include "aplomb/advice.h"
 #include "aplomb/attempt.h"
 #include "aplomb/balance/attachments.h"
+#include "aplomb/holes/drill.h"
 
 namespace aplomb {
 namespace {
@@ -77,8 +78,8 @@ JudgeOptions judge_options(const StandOptions& options) {
   return judging;
 }
 
-constexpr double same_place_mm =
-    2;  // between a finding about the shell and one about the model, more where it was bent
+/// Between a finding about the shell and one about the model as it came; more where it was bent.
+constexpr double same_place_mm = 2;
 
 /// Judges what was written; where it fails, the model as it came too, to tell what carving did from what was there.
 Result<Judgement> judge_output(const TriangleMesh& written, const Input& input, const StandRun& run,
@@ -94,6 +95,18 @@ Result<Judgement> judge_output(const TriangleMesh& written, const Input& input, 
   return judgement;
 }
 
+/// Tells of the holes that were cut.
+void take_holes(StandRun& run, const Input& shaped, const Attempt& made) {
+  run.report.hints.insert(run.report.hints.end(), made.hints.begin(), made.hints.end());
+  run.holes = made.holes;
+  for (const Hole& hole : made.holes)
+    run.report.holes.push_back(
+        {hole.at(hole.mouth_mm), hole.at(hole.throat_mm), hole.outward, hole.bore_mm, hole.wall_mm()});
+  if (made.holes.empty()) return;
+  run.undrilled = shaped.solid.mesh();
+  run.report.mesh->outer_unchanged = false;
+}
+
 /// Says of a run what was made: of the solid alone where nothing was carved.
 Result<StandRun> finish(StandRun run, const Input& shaped, std::optional<Attempt> made, const StandOptions& options,
                         StageClock& clock, const Job& job, const StageViewer& view) {
@@ -101,6 +114,7 @@ Result<StandRun> finish(StandRun run, const Input& shaped, std::optional<Attempt
   if (made) {
     report.carving = carving_figures(made->carving, shaped, made->joint, options);
     run.shell = std::move(made->shell);
+    take_holes(run, shaped, *made);
     run.carving = std::move(made->carving);
   } else {
     run.shell = Shell{shaped.solid.mesh(), shaped.solid.mesh().triangles.size(), 0, 0, 0};
@@ -126,7 +140,7 @@ Result<StandRun> stand(const Input& input, const StandOptions& options, const Jo
   assert(find_problem(options).empty());
   auto begun = begin_report(input, options);
   if (!begun) return tl::unexpected(begun.error());
-  StandRun run{std::nullopt, std::nullopt, std::move(*begun)};
+  StandRun run{std::nullopt, std::nullopt, {}, {}, std::move(*begun)};
   Report& report = run.report;
   StageClock clock(report.stage_seconds);
   const bool is_to_move = !options.reshape.regions.handles.empty();
@@ -156,6 +170,10 @@ Result<StandRun> stand(const Input& input, const StandOptions& options, const Jo
     if (const auto shell = add_shell(*made, shaped, options, clock, job.part(0.8, 0.9)); !shell)
       return tl::unexpected(shell.error());
   return finish(std::move(run), shaped, std::move(made), options, clock, job.part(0.9, 1), view);
+}
+
+Result<std::vector<TriangleMesh>> hole_plugs(const StandRun& run, const Job& job) {
+  return plugs(run.undrilled, run.holes, 0.15, job);
 }
 
 Result<Report> check(const Input& input, const StandOptions& options, const Job& job) {

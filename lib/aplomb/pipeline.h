@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "aplomb/holes/hole.h"
 #include "aplomb/input.h"
 #include "aplomb/report/report.h"
 #include "aplomb/shell/shell.h"
@@ -14,6 +15,8 @@ namespace aplomb {
 struct StandRun {
   std::optional<Shell> shell;      ///< what to print; none when it cannot stand and no best effort was asked for
   std::optional<Carving> carving;  ///< none when it stands already
+  std::vector<Hole> holes;         ///< escape holes that were cut through the shell
+  TriangleMesh undrilled;          ///< the outside before the holes were cut; empty without holes
   Report report;                   ///< `after` and `mesh` are to be measured on what is written: see measure_output()
 };
 
@@ -23,6 +26,10 @@ struct StandRun {
 /// \return over_budget, cancelled, unusable_input; not being able to is an outcome in the report.
 Result<StandRun> stand(const Input& input, const StandOptions& options, const Job& job = {},
                        const StageViewer& view = {});
+
+/// A plug for each escape hole of a run, laid where it belongs: see plugs(). The balance was solved without them.
+/// \return cancelled, third_party where one cannot be made.
+Result<std::vector<TriangleMesh>> hole_plugs(const StandRun& run, const Job& job = {});
 
 /// How a solid holds its poses as it is.
 Result<Report> check(const Input& input, const StandOptions& options, const Job& job = {});

@@ -19,16 +19,23 @@ enum class Deform {
   only,       ///< and nothing is carved
 };
 
+/// Whether voids get the holes that the process asks for, so that what is in them gets out.
+enum class Holes {
+  automatic,  ///< where the process asks for any: sla, powder, binder
+  none,
+};
+
 struct StandOptions {
   std::vector<Pose> poses{Pose{}};  ///< all of them are to hold at once, each at its required angle; not empty
   bool robust = false;              ///< asked of the robust tip angles instead of the nominal ones
   CarveAim aim = CarveAim::least;
   Deform deform = Deform::never;
-  ReshapeOptions reshape = {};          ///< its wall_mm and carves follow from the rest
+  ReshapeOptions reshape = {};  ///< its wall_mm and carves follow from the rest
+  Holes holes = Holes::automatic;
   double wall_mm = 1.6;                 ///< > 0; four lines of a 0.4 mm nozzle
   std::optional<double> voxel_mm = {};  ///< none: at least 4 voxels in the wall and about 256 on the diagonal
-  double least_void_mm = 1;             ///< no void narrower, >= 0
-  double least_volume_mm3 = 10;         ///< no void smaller, >= 0
+  double least_void_mm = 1;             ///< no void narrower, >= 0; nor narrower than an escape hole
+  double least_volume_mm3 = 10;         ///< no void smaller, >= 0; nor than four balls as wide as an escape hole
   std::size_t memory_bytes = std::size_t{4} << 30;
   double density_g_per_cm3 = 1.24;  ///< > 0; PLA
   bool best_effort = false;         ///< make the shell also when it will not stand

@@ -73,6 +73,11 @@ void add_carving_flags(CLI::App* app, Arguments& a) {
   add_quantity(app, "--voxel", options.voxel_mm, lengths, "grid spacing (default: 4 in a wall, 256 on the diagonal)");
   add_quantity(app, "--least-void", options.least_void_mm, lengths, "no void narrower than this (default 1mm)");
   app->add_option("--least-volume", options.least_volume_mm3, "no void smaller than this, in mm3 (default 10)");
+  add_choice(
+      app, "--holes", {"auto", "none"},
+      [&options](const std::string& name) { options.holes = name == "none" ? Holes::none : Holes::automatic; },
+      "escape holes: auto (default; as the process asks for them, fdm for none) or none");
+  app->add_option("--plugs", a.job.plugs, "write plugs for the escape holes into this 3MF, STL, OBJ or PLY file");
   app->add_flag("--best-effort", options.best_effort, "write the best that can be reached where it is not enough");
   app->add_option("--dump", a.job.dump, "write what each stage made into this folder");
   app->add_option("--save-job", a.save_job, "write this command as a job file, for aplomb run");

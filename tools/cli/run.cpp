@@ -109,6 +109,16 @@ Result<void> publish(Report& report, const Arguments& a) {
   return a.job.report.empty() ? Result<void>{} : write_text(a.job.report, to_json(report));
 }
 
+/// Writes the plugs of the escape holes as one file of several parts, laid where they belong.
+Result<void> write_plugs(const StandRun& made, const Arguments& a, const Job& job) {
+  if (a.job.plugs.empty() || made.holes.empty()) return {};
+  const auto parts = hole_plugs(made, job.part(0, 0.8));
+  if (!parts) return tl::unexpected(parts.error());
+  TriangleMesh all;
+  for (const TriangleMesh& plug : *parts) all = joined(std::move(all), plug);
+  return write_mesh(a.job.plugs, all, WriteOptions{a.job.plugs.stem().string(), remember_temp_file}, job.part(0.8, 1));
+}
+
 /// Measures what the file of the shell holds, and writes it where it prints or the best effort was asked for.
 Result<Report> measure_and_write(const StandRun& made, const Input& input, const Arguments& a,
                                  const StandOptions& options, const Job& job) {
@@ -130,6 +140,8 @@ Result<Report> measure_and_write(const StandRun& made, const Input& input, const
   }
   if (const auto written = write_file_atomically(output, *bytes, remember_temp_file); !written)
     return tl::unexpected(written.error());
+  if (const auto plugged = write_plugs(made, a, job); !plugged) return tl::unexpected(plugged.error());
+  if (!a.job.plugs.empty() && made.holes.empty()) report->hints.emplace_back("no escape holes were cut: no plugs");
   return report;
 }
 
@@ -254,8 +266,9 @@ Result<void> save_job(const Arguments& a) {
 
 int run(const Arguments& a) {
   const JobFile& asked = a.job;
-  if (!asked.output.empty() && asked.output != "-")
-    if (const auto format = format_of(asked.output); !format) return report_error(format.error());
+  for (const std::filesystem::path& file : {asked.output, asked.plugs})
+    if (!file.empty() && file != "-")
+      if (const auto format = format_of(file); !format) return report_error(format.error());
   if (const auto saved = save_job(a); !saved) return report_error(saved.error());
   const ThreadLimit limit(asked.threads);
   ProgressLine progress(!a.quiet);

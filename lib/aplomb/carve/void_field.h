@@ -43,6 +43,10 @@ struct VoidCut {
 /// `least_volume_mm3`. The maximum only ever raises phi, so that the wall's guarantee holds for every such void.
 VoidCut cut_void(const SolidVolume& volume, const AffineForm& kept, double least_volume_mm3);
 
+/// The same volume, where the part of a void that hangs together with a point of it, below a height, may no longer be
+/// carved. Nothing changes where the seed lies outside the void.
+SolidVolume without_part(const SolidVolume& volume, const VoidField& field, Vec3 seed_mm, double below_mm);
+
 /// The cells in which the field changes sign, for marching_tetrahedra().
 std::vector<CornerCell> boundary_cells(const VoidField& field);
 

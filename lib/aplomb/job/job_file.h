@@ -29,6 +29,7 @@ struct JobFile {
   std::filesystem::path dump;     ///< empty: none
   std::filesystem::path html;     ///< empty: none
   std::filesystem::path picture;  ///< empty: none
+  std::filesystem::path plugs;    ///< empty: none
   InputOptions input;
   std::vector<JobPose> poses{JobPose{}};
   StandOptions options;  ///< all but the poses: see stand_options()

@@ -99,6 +99,14 @@ Json json(const DeformationFigures& d) {
           {"trims", trims}};
 }
 
+Json json(const HoleFigures& hole) {
+  return {{"mouth_mm", json(hole.mouth_mm)},
+          {"throat_mm", json(hole.throat_mm)},
+          {"outward", json(hole.outward)},
+          {"diameter_mm", hole.diameter_mm},
+          {"depth_mm", hole.depth_mm}};
+}
+
 Json json(const MeshFigures& m) {
   return {{"outer_unchanged", m.outer_unchanged},
           {"closed", m.closed},
@@ -135,6 +143,7 @@ std::string to_json(const Report& report) {
   if (report.carving) object["carving"] = json(*report.carving);
   if (report.deformation) object["deformation"] = json(*report.deformation);
   if (report.wall) object["wall_mm"] = {{"required", report.wall->required_mm}, {"measured", report.wall->measured_mm}};
+  for (const HoleFigures& hole : report.holes) object["holes"].push_back(json(hole));
   if (report.mesh) object["mesh"] = json(*report.mesh);
   if (report.judgement) object["judgement"] = Json::parse(to_json(*report.judgement));
   object["repair"] = report.repair;

@@ -67,6 +67,15 @@ struct WallFigures {
   double measured_mm = 0;  ///< exact, on the rounded output
 };
 
+/// An escape hole that was cut.
+struct HoleFigures {
+  Vec3 mouth_mm;   ///< where its axis leaves the solid
+  Vec3 throat_mm;  ///< where it leaves the void
+  Vec3 outward;    ///< along it, of length 1
+  double diameter_mm = 0;
+  double depth_mm = 0;  ///< from throat to mouth
+};
+
 struct MeshFigures {
   bool outer_unchanged = false;
   bool closed = false;
@@ -86,6 +95,7 @@ struct Report {
   std::optional<CarvingFigures> carving;
   std::optional<DeformationFigures> deformation;
   std::optional<WallFigures> wall;
+  std::vector<HoleFigures> holes;
   std::optional<MeshFigures> mesh;
   std::optional<Judgement> judgement;  ///< of what was written
   std::vector<std::string> repair;     ///< what was wrong with the input and what was decided, a sentence each

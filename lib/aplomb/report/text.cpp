@@ -141,6 +141,10 @@ std::string work(const Report& report) {
   if (report.wall)
     text += line("wall", number(report.wall->measured_mm, 3) + " mm measured, " + number(report.wall->required_mm, 3) +
                              " asked");
+  for (const HoleFigures& hole : report.holes)
+    text += line(&hole == &report.holes.front() ? "escape holes" : "", number(hole.diameter_mm, 2) + " mm across, " +
+                                                                           number(hole.depth_mm, 1) + " mm deep, at " +
+                                                                           point(hole.mouth_mm));
   if (report.mesh)
     text +=
         line("mesh", std::to_string(report.mesh->triangles) + " triangles, " + std::to_string(report.mesh->voids) +

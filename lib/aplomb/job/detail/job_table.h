@@ -9,6 +9,7 @@
 namespace aplomb::detail {
 
 inline constexpr std::array<const char*, 3> aim_names{"least", "light", "stable"};  // in CarveAim's order
+inline constexpr std::array<const char*, 2> holes_names{"auto", "none"};  // in Holes' order
 inline constexpr std::array<const char*, 3> deform_names{"never", "auto", "only"};  // in Deform's order
 
 template <class Visitor, class Radius>
@@ -64,6 +65,7 @@ void visit_job(const Visitor& v, JobFile& job) {
   v.path("dump", job.dump);
   v.path("html", job.html);
   v.path("picture", job.picture);
+  v.path("plugs", job.plugs);
   v.group("place", [&](const Visitor& place) {
     place.value("object", job.input.object);
     place.up("up", job.input.placement.up);
@@ -80,6 +82,7 @@ void visit_job(const Visitor& v, JobFile& job) {
   v.value("deform_limit_percent", job.options.reshape.most_mean_percent);
   v.value("trim_base_mm", job.options.reshape.most_trim_mm);
   visit_regions(v, job.options.reshape.regions);
+  v.name("holes", holes_names, job.options.holes);
   v.name("process", process_names, job.rules.process);
   v.preset("process", job.options.wall_mm, wall_of_process);
   v.value("wall_mm", job.options.wall_mm);

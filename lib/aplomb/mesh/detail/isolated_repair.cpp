@@ -1,47 +1,14 @@
 #include "aplomb/mesh/detail/isolated_repair.h"
 
-#include <cstring>
 #include <string>
+
+#include "aplomb/mesh/detail/mesh_bytes.h"
 
 namespace aplomb::detail {
 namespace {
 
 using adapters::ClosedSurface;
 using adapters::FilledHole;
-
-// What a child sends home: plain arrays, each after its length.
-
-template <class T>
-void put(std::string& bytes, const std::vector<T>& items) {
-  const std::size_t count = items.size();
-  bytes.append(reinterpret_cast<const char*>(&count), sizeof count);
-  bytes.append(reinterpret_cast<const char*>(items.data()), count * sizeof(T));
-}
-
-template <class T>
-std::vector<T> take(const std::string& bytes, std::size_t& at) {
-  std::size_t count = 0;
-  std::memcpy(&count, bytes.data() + at, sizeof count);
-  at += sizeof count;
-  std::vector<T> items(count);
-  if (count > 0) std::memcpy(items.data(), bytes.data() + at, count * sizeof(T));
-  at += count * sizeof(T);
-  return items;
-}
-
-std::string packed(const TriangleMesh& mesh) {
-  std::string bytes;
-  put(bytes, mesh.vertices);
-  put(bytes, mesh.triangles);
-  return bytes;
-}
-
-TriangleMesh unpacked(const std::string& bytes, std::size_t& at) {
-  TriangleMesh mesh;
-  mesh.vertices = take<Vec3>(bytes, at);
-  mesh.triangles = take<Triangle>(bytes, at);
-  return mesh;
-}
 
 /// An optional mesh comes home as no bytes or its arrays.
 template <class Work>
