@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "aplomb/ceilings.h"
+
 namespace aplomb {
 namespace {
 
@@ -15,8 +17,9 @@ constexpr double bent_beyond_rad =
 constexpr int most_bends = 3;
 constexpr int most_reshapings = most_bends + 1;  // the first may be a cut alone
 
+/// \param always  a shell of what does not reach, too.
 Result<Attempt> carve_shell(const SolidVolume& volume, const Input& input, const JointProblem& joint,
-                            const StandOptions& options, StageClock& clock, const Job& job) {
+                            const StandOptions& options, bool always, StageClock& clock, const Job& job) {
   const double required_rad = std::atan(joint.required_t);
   double aimed_rad = required_rad + aimed_beyond_rad;
   for (int round = 1;; ++round) {
@@ -25,15 +28,29 @@ Result<Attempt> carve_shell(const SolidVolume& volume, const Input& input, const
     if (!carving) return tl::unexpected(carving.error());
     clock.lap("carve");
     carving->reaches = carving->t >= joint.required_t;
-    if (!carving->reaches) return Attempt{joint, std::move(*carving), std::nullopt};
+    if (!carving->reaches && !always) return Attempt{joint, std::move(*carving), std::nullopt};
     auto shell = build_shell(input.solid, carving->field, {.wall_mm = options.wall_mm}, job.part(0.3, 1));
     if (!shell) return tl::unexpected(shell.error());
     clock.lap("shell");
     const double short_rad = required_rad - std::atan(largest_t(joint.problem, moments(shell->mesh)));
-    if (short_rad <= 0 || options.aim == CarveAim::stable || round == most_carvings)
+    if (short_rad <= 0 || !carving->reaches || options.aim == CarveAim::stable || round == most_carvings)
       return Attempt{joint, std::move(*carving), std::move(*shell)};
     aimed_rad += short_rad + aimed_beyond_rad;
   }
+}
+
+/// A shell's voids with ceilings that print, where that is asked for.
+Result<void> shape_ceilings(Attempt& attempt, const Input& input, const StandOptions& options, StageClock& clock,
+                            const Job& job) {
+  if (!shapes_ceilings(options)) return {};
+  const CarveAgain carve_again = [&](const SolidVolume& allowed, const Job& part) {
+    return carve_shell(allowed, input, attempt.joint, options, true, clock, part);
+  };
+  auto shaped = with_printable_ceilings(attempt, options.judge.rules, carve_again, job);
+  if (!shaped) return tl::unexpected(shaped.error());
+  attempt = std::move(*shaped);
+  clock.lap("ceilings");
+  return {};
 }
 
 DeformationFigures figures_of(const Reshaper& reshaper, const Reshaping& reshaping) {
@@ -81,16 +98,22 @@ Result<Attempt> attempt_carving(const Input& input, const StandOptions& options,
   clock.lap("voxelize");
   const auto joint = joint_problem(input.solid.mesh(), options.poses, kind_of(options));
   if (!joint) return tl::unexpected(joint.error());
-  return carve_shell(*volume, input, *joint, options, clock, job.part(0.4, 1));
+  auto attempt = carve_shell(*volume, input, *joint, options, false, clock, job.part(0.4, 0.6));
+  if (!attempt) return attempt;
+  attempt->volume = *volume;
+  if (!attempt->shell) return attempt;
+  const auto shaped = shape_ceilings(*attempt, input, options, clock, job.part(0.6, 1));
+  if (!shaped) return tl::unexpected(shaped.error());
+  return attempt;
 }
 
 Result<void> add_shell(Attempt& attempt, const Input& input, const StandOptions& options, StageClock& clock,
                        const Job& job) {
-  auto shell = build_shell(input.solid, attempt.carving.field, {.wall_mm = options.wall_mm}, job);
+  auto shell = build_shell(input.solid, attempt.carving.field, {.wall_mm = options.wall_mm}, job.part(0, 0.3));
   if (!shell) return tl::unexpected(shell.error());
   attempt.shell = std::move(*shell);
   clock.lap("shell");
-  return {};
+  return shape_ceilings(attempt, input, options, clock, job.part(0.3, 1));
 }
 
 Result<ReshapedAttempt> attempt_reshaping(const Input& input, const StandOptions& options, StageClock& clock,

@@ -17,15 +17,18 @@ struct Attempt {
   JointProblem joint;
   Carving carving;
   std::optional<Shell> shell;  ///< where it reaches, or add_shell() was called
+  std::optional<CeilingFigures> ceiling{};  ///< where ceilings were to be shaped and there is a shell
+  std::optional<SolidVolume> volume{};      ///< what might be carved
 };
 
 /// Voxelises, carves and builds the shell; where simplifying it cost more than was aimed beyond, carves again for as
 /// much more. \return as voxelize(), joint_problem(), carve() and build_shell().
 ///
-/// The shell is left out where the carving does not reach: see add_shell().
+/// The shell is left out where the carving does not reach: see add_shell(). Ceilings are shaped where that is asked for
+/// (with_printable_ceilings()), which may leave a carving short of what it reached.
 Result<Attempt> attempt_carving(const Input& input, const StandOptions& options, StageClock& clock, const Job& job);
 
-/// Builds the shell of a carving that does not reach. \return as build_shell().
+/// Builds the shell of a carving that does not reach, with ceilings that print. \return as attempt_carving().
 Result<void> add_shell(Attempt& attempt, const Input& input, const StandOptions& options, StageClock& clock,
                        const Job& job);
 

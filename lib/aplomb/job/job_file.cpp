@@ -17,6 +17,7 @@ namespace fs = std::filesystem;
 
 constexpr std::array<const char*, 3> aim_names{"least", "light", "stable"};  // in CarveAim's order
 constexpr std::array<const char*, 3> deform_names{"never", "auto", "only"};  // in Deform's order
+constexpr std::array<const char*, 2> ceiling_names{"auto", "any"};           // in Ceiling's order
 
 template <class Visitor, class Radius>
 void visit_ball(const Visitor& v, Vec3& center_mm, Radius& radius_mm) {
@@ -90,6 +91,7 @@ void visit_job(const Visitor& v, JobFile& job) {
   v.name("process", process_names, job.rules.process);
   v.preset("process", job.options.wall_mm, wall_of_process);
   v.value("wall_mm", job.options.wall_mm);
+  v.name("ceiling", ceiling_names, job.options.ceiling);
   v.value("voxel_mm", job.options.voxel_mm);
   v.value("least_void_mm", job.options.least_void_mm);
   v.value("least_volume_mm3", job.options.least_volume_mm3);

@@ -74,6 +74,10 @@ class Reader {
     if (const auto at = json_.find(key); at != json_.end())
       field = static_cast<Enum>(index_of(names, at->get<std::string>()));
   }
+  template <class Enum, class Names>
+  void name(const char* key, const Names& names, std::optional<Enum>& field) const {
+    if (json_.contains(key)) name(key, names, field.emplace());
+  }
   void memory(const char* key, std::size_t& field_bytes) const {
     if (const auto at = json_.find(key); at != json_.end())
       field_bytes = static_cast<std::size_t>(std::llround(at->get<double>() * 1e6));
@@ -152,6 +156,10 @@ class Writer {
   template <class Enum, class Names>
   void name(const char* key, const Names& names, Enum field) const {
     json_[key] = names[static_cast<std::size_t>(field)];
+  }
+  template <class Enum, class Names>
+  void name(const char* key, const Names& names, const std::optional<Enum>& field) const {
+    if (field) name(key, names, *field);
   }
   void memory(const char* key, std::size_t field_bytes) const { json_[key] = static_cast<double>(field_bytes) / 1e6; }
   void preset(const char*, double, std::optional<double> (*)(std::string_view)) const {}  // its number is written
