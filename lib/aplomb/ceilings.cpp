@@ -20,6 +20,7 @@ namespace {
 constexpr int most_rounds = 8;
 constexpr double thick_ratio = 1.25;    // of a rib to the least wall: what voxels and simplifying may take
 constexpr double slot_ratio = 0.94;     // of a slot to the widest bridge
+constexpr double steeper_deg = 2;       // arches than the limit
 constexpr double beyond_slope_deg = 1;  // ceilings that nearly are too flat are held, too
 
 struct Wrong {
@@ -130,8 +131,8 @@ class Shaper {
       const double held = std::max(0.0, 0.92 - 0.2 * round);
       std::vector<int> cells = wide_cells(ceiling, held * *span_mm_ / 2);
       if (cells.empty()) cells = wide_cells(ceiling, 0);
-      const RibOptions options{thick_mm_, slot_ratio * *span_mm_};
-      for (KeptPart& rib : ribs_under(ceiling, cells, costs, options, floor_mm())) {
+      const RibOptions options{thick_mm_, slot_ratio * *span_mm_, slope_deg_ + steeper_deg, floor_mm()};
+      for (KeptPart& rib : ribs_under(ceiling, cells, costs, options)) {
         kept_.push_back(std::move(rib));
         ++figures.ribs;
       }

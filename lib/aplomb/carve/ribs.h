@@ -17,23 +17,33 @@ namespace aplomb {
 class ColumnCosts {
  public:
   ColumnCosts(const SolidVolume& volume, const AffineForm& kept);
-  /// Per mm2 of plan.
-  double at(Vec2 point_mm) const;
+
+  struct Column {
+    double cost = 0;      ///< per mm2 of plan
+    double floor_mm = 0;  ///< lowest place that would be carved, where the cost is not 0
+  };
+  Column at(Vec2 point_mm) const;
 
  private:
   VoxelFrame frame_;
   int columns_ = 0, rows_ = 0;
-  std::vector<double> costs_;
+  std::vector<Column> in_order_;
 };
 
 struct RibOptions {
   double thick_mm = 1;  ///< of a rib, > 0
   double slot_mm = 9;   ///< most between two ribs, > 0
+  double slope_deg = 47;  ///< of the arches in a rib, from level; 90: a rib has none
+  double floor_mm = 0;  ///< where ribs end
 };
 
 /// Upright sheets of material under cells of a ceiling, from it down to the floor, so that no slot between them is wider
 /// than slot_mm. Of twelve directions and the places that leave no wider slot, those that cost least. At least one.
+///
+/// A rib is cut out in pointed arches as steep as slope_deg where that gains something: what is left stands on legs
+/// 2 thick_mm wide at its ends and between arches, rises as steeply as an overhang may, and is whole for 2 thick_mm
+/// under the ceiling that it holds. So it prints whatever lies beside it.
 std::vector<KeptPart> ribs_under(const FlatCeiling& ceiling, const std::vector<int>& cells, const ColumnCosts& costs,
-                                 const RibOptions& options, double floor_mm);
+                                 const RibOptions& options);
 
 }  // namespace aplomb
