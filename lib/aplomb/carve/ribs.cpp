@@ -22,6 +22,9 @@ struct Family {
 
   double across_mm(Vec2 p) const { return p.x * normal.x + p.y * normal.y; }
   double along_mm(Vec2 p) const { return p.y * normal.x - p.x * normal.y; }
+  Vec2 place(double across, double along) const {
+    return {across * normal.x - along * normal.y, across * normal.y + along * normal.x};
+  }
   /// Distance to the nearest rib's middle.
   double to_rib_mm(Vec2 p) const {
     const double k = std::round((across_mm(p) - first_mm) / pitch_mm);
@@ -114,71 +117,126 @@ struct Hold {
   ColumnCosts::Column below;
 };
 
-constexpr std::array<double, 5> apexes{0.5, 0.35, 0.65, 0.2, 0.8};
-constexpr int most_arches = 8;
+constexpr std::array<double, 7> apexes{0.5, 0.35, 0.65, 0.2, 0.8, 0, 1};
+constexpr int most_arches = 6;
+constexpr double most_reach_mm = 40;  // of an arch past the ceiling, to a wall
+constexpr double everywhere_mm = 1e9;
 
-/// The arch between two legs that gains most.
-Arch best_arch(double begin, double end, const std::vector<Hold>& holds, const RibOptions& options) {
-  Arch best;
-  for (const double share : apexes) {
-    Arch arch{begin, end, begin + share * (end - begin), 1e9, std::tan(options.slope_deg * std::numbers::pi / 180), 0};
-    for (const Hold& hold : holds)
-      if (hold.along_mm > begin && hold.along_mm < end)
-        arch.top_mm = std::min(
-            arch.top_mm, hold.top_mm - 2 * options.thick_mm + arch.steepness * std::abs(hold.along_mm - arch.apex_mm));
-    for (const Hold& hold : holds) {
-      if (!(hold.along_mm > begin && hold.along_mm < end) || hold.below.cost <= 0) continue;
-      const double open = std::max(0.0, arch.height_mm(hold.along_mm) - hold.below.floor_mm);
-      arch.gain += hold.below.cost * open / std::max(open, hold.top_mm - hold.below.floor_mm);
+/// Where a rib is, and the arches in it.
+struct Rib {
+  Stretch stretch;
+  std::vector<Arch> arches;
+  double gain = 0;
+};
+
+/// Cuts arches out of one rib.
+class RibCutter {
+ public:
+  RibCutter(const Family& family, double middle_mm, const Stretch& stretch, const Cells& cells,
+            const ColumnCosts& costs, const RibOptions& options)
+      : family_(family), middle_mm_(middle_mm), stretch_(stretch), costs_(costs), options_(options) {
+    double floor = stretch.top_mm;
+    for (std::size_t i = 0; i < cells.places.size(); ++i) {
+      if (std::abs(family.across_mm(cells.places[i]) - middle_mm) > options.thick_mm / 2 + cells.cell_mm) continue;
+      const double along = family.along_mm(cells.places[i]);
+      if (along < stretch.begin_mm || along > stretch.end_mm) continue;
+      holds_.push_back({along, cells.tops_mm[i], cells.below[i]});
+      if (cells.below[i].cost > 0) floor = std::min(floor, cells.below[i].floor_mm);
     }
-    if (arch.gain > best.gain) best = arch;
+    leg_mm_ = std::max(2 * options.thick_mm, (stretch.top_mm - floor) / 4);
   }
-  return best;
-}
 
-std::vector<Arch> best_arches(const Stretch& stretch, const std::vector<Hold>& holds, const RibOptions& options) {
-  std::vector<Arch> best;
-  double most = 0;
-  const double leg = 2 * options.thick_mm;
-  for (int count = 1; count <= most_arches && options.slope_deg < 85; ++count) {
-    const double width = (stretch.end_mm - stretch.begin_mm - (count + 1) * leg) / count;
-    if (width < leg) break;
-    std::vector<Arch> arches;
-    double gain = 0;
+  Rib cut() const {
+    Rib best{stretch_, {}, 0};
+    if (options_.slope_deg > 85) return best;
+    for (int count = 1; count <= most_arches; ++count)
+      for (const bool legs_first : {false, true})
+        for (const bool legs_last : {false, true})
+          if (Rib rib = with_arches(count, legs_first, legs_last); rib.gain > best.gain) best = std::move(rib);
+    return best;
+  }
+
+ private:
+  /// With legs at its ends, or leaning on what is beyond them.
+  Rib with_arches(int count, bool leg_first, bool leg_last) const {
+    Rib rib{stretch_, {}, 0};
+    const double low = stretch_.begin_mm + (leg_first ? leg_mm_ : 0), high = stretch_.end_mm - (leg_last ? leg_mm_ : 0);
+    const double width = (high - low - (count - 1) * leg_mm_) / count;
+    if (width < leg_mm_) return rib;
     for (int i = 0; i < count; ++i) {
-      const double begin = stretch.begin_mm + leg + i * (width + leg);
-      const Arch arch = best_arch(begin, begin + width, holds, options);
-      if (arch.gain > 0) arches.push_back(arch);
-      gain += arch.gain;
+      const double begin = low + i * (width + leg_mm_);
+      Arch arch = best_arch(begin, begin + width);
+      if (!(arch.gain > 0)) return {stretch_, {}, 0};
+      rib.gain += arch.gain;
+      if (i == 0 && !leg_first && !lean(arch, -1, rib)) return {stretch_, {}, 0};
+      if (i + 1 == count && !leg_last && !lean(arch, 1, rib)) return {stretch_, {}, 0};
+      rib.arches.push_back(arch);
     }
-    if (gain > most) most = gain, best = std::move(arches);
+    return rib;
   }
-  return best;
-}
 
-std::vector<Hold> holds_of(const Family& family, double middle_mm, const Cells& cells, double thick_mm) {
-  std::vector<Hold> holds;
-  for (std::size_t i = 0; i < cells.places.size(); ++i)
-    if (std::abs(family.across_mm(cells.places[i]) - middle_mm) <= thick_mm / 2 + cells.cell_mm)
-      holds.push_back({family.along_mm(cells.places[i]), cells.tops_mm[i], cells.below[i]});
-  return holds;
-}
+  Arch best_arch(double begin, double end) const {
+    Arch best;
+    for (const double share : apexes) {
+      Arch arch{begin, end, begin + share * (end - begin), everywhere_mm,
+                std::tan(options_.slope_deg * std::numbers::pi / 180), 0};
+      const auto spans = [&](const Hold& hold) { return hold.along_mm > begin && hold.along_mm < end; };
+      for (const Hold& hold : holds_)
+        if (spans(hold))
+          arch.top_mm = std::min(arch.top_mm, hold.top_mm - 2 * options_.thick_mm +
+                                                  arch.steepness * std::abs(hold.along_mm - arch.apex_mm));
+      for (const Hold& hold : holds_)
+        if (spans(hold)) arch.gain += open_cost(hold.below, hold.top_mm, arch.height_mm(hold.along_mm));
+      if (arch.gain > best.gain) best = arch;
+    }
+    return best;
+  }
 
-KeptPart rib_part(const Family& family, int rib, const Stretch& stretch, const Cells& cells, const RibOptions& options) {
-  const double middle = family.first_mm + rib * family.pitch_mm, thick = options.thick_mm, floor = options.floor_mm;
-  const double top = stretch.top_mm + 2 * thick;
+  /// What is gained in a column, of a rib as wide as a cell, that is open up to a height.
+  static double open_cost(const ColumnCosts::Column& below, double top_mm, double height_mm) {
+    const double open = std::max(0.0, height_mm - below.floor_mm);
+    return below.cost <= 0 || open == 0 ? 0 : below.cost * open / std::max(open, top_mm - below.floor_mm);
+  }
+
+  /// Follows an arch past the rib's end until it meets material, and makes the rib as long. \return whether it does.
+  bool lean(Arch& arch, int way, Rib& rib) const {
+    const double step = 0.5 * options_.thick_mm, start = way < 0 ? stretch_.begin_mm : stretch_.end_mm;
+    for (double reach = 0; reach <= most_reach_mm; reach += step) {
+      const double along = start + way * reach, height = arch.height_mm(along);
+      const ColumnCosts::Column below = costs_.at(family_.place(middle_mm_, along));
+      if (below.cost <= 0 || height >= below.top_mm || height <= below.floor_mm) {
+        (way < 0 ? arch.begin_mm : arch.end_mm) = way * everywhere_mm;
+        (way < 0 ? rib.stretch.begin_mm : rib.stretch.end_mm) = along + way * options_.thick_mm;
+        return true;
+      }
+      rib.gain -= (below.cost - open_cost(below, below.top_mm, height)) * step / options_.thick_mm;
+    }
+    return false;
+  }
+
+  const Family& family_;
+  const double middle_mm_;
+  const Stretch& stretch_;
+  const ColumnCosts& costs_;
+  const RibOptions& options_;
+  std::vector<Hold> holds_;
+  double leg_mm_ = 2;
+};
+
+KeptPart rib_part(const Family& family, double middle, const Rib& rib, const RibOptions& options) {
+  const double thick = options.thick_mm, floor = options.floor_mm, top = rib.stretch.top_mm + 2 * thick;
   KeptPart part;
   for (const double across : {middle - thick / 2, middle + thick / 2})
-    for (const double along : {stretch.begin_mm, stretch.end_mm})
-      for (const double z : {floor, top})
-        part.box_mm.add({across * family.normal.x - along * family.normal.y,
-                         across * family.normal.y + along * family.normal.x, z});
-  const std::vector<Arch> arches = best_arches(stretch, holds_of(family, middle, cells, thick), options);
+    for (const double along : {rib.stretch.begin_mm, rib.stretch.end_mm})
+      for (const double z : {floor, top}) {
+        const Vec2 place = family.place(across, along);
+        part.box_mm.add({place.x, place.y, z});
+      }
   part.depth_mm = [=](Vec3 p) {
     const double along = family.along_mm({p.x, p.y});
     double depth = thick / 2 - std::abs(family.across_mm({p.x, p.y}) - middle);
-    depth = std::min({depth, along - stretch.begin_mm, stretch.end_mm - along});
-    for (const Arch& arch : arches) depth = std::min(depth, -arch.depth_mm(along, p.z));
+    depth = std::min({depth, along - rib.stretch.begin_mm, rib.stretch.end_mm - along});
+    for (const Arch& arch : rib.arches) depth = std::min(depth, -arch.depth_mm(along, p.z));
     return std::min({depth, top - p.z, p.z - floor});
   };
   return part;
@@ -201,7 +259,9 @@ ColumnCosts::ColumnCosts(const SolidVolume& volume, const AffineForm& kept) : fr
       const double l = kept(least + 0.5 * frame_.voxel_mm * Vec3{1, 1, 1});
       if (i < 0 || j < 0 || share == 0 || l >= 0) continue;
       Column& column = in_order_[static_cast<std::size_t>(j) * columns_ + i];
+      const double above = least.z + frame_.voxel_mm;
       column.floor_mm = column.cost > 0 ? std::min(column.floor_mm, least.z) : least.z;
+      column.top_mm = column.cost > 0 ? std::max(column.top_mm, above) : above;
       column.cost -= share * l * frame_.voxel_mm;
     }
 }
@@ -225,8 +285,11 @@ std::vector<KeptPart> ribs_under(const FlatCeiling& ceiling, const std::vector<i
   const Family family = cheapest(cells, options);
   std::vector<KeptPart> ribs;
   for (int rib = 0; rib < family.count; ++rib)
-    for (const Stretch& stretch : stretches(family, rib, cells, options))
-      ribs.push_back(rib_part(family, rib, stretch, cells, options));
+    for (const Stretch& stretch : stretches(family, rib, cells, options)) {
+      const double middle = family.first_mm + rib * family.pitch_mm;
+      ribs.push_back(
+          rib_part(family, middle, RibCutter(family, middle, stretch, cells, costs, options).cut(), options));
+    }
   return ribs;
 }
 

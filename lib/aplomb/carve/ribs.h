@@ -21,6 +21,7 @@ class ColumnCosts {
   struct Column {
     double cost = 0;      ///< per mm2 of plan
     double floor_mm = 0;  ///< lowest place that would be carved, where the cost is not 0
+    double top_mm = 0;    ///< highest
   };
   Column at(Vec2 point_mm) const;
 
@@ -40,9 +41,10 @@ struct RibOptions {
 /// Upright sheets of material under cells of a ceiling, from it down to the floor, so that no slot between them is wider
 /// than slot_mm. Of twelve directions and the places that leave no wider slot, those that cost least. At least one.
 ///
-/// A rib is cut out in pointed arches as steep as slope_deg where that gains something: what is left stands on legs
-/// 2 thick_mm wide at its ends and between arches, rises as steeply as an overhang may, and is whole for 2 thick_mm
-/// under the ceiling that it holds. So it prints whatever lies beside it.
+/// A rib is cut out in pointed arches as steep as slope_deg where that gains something. What is left is whole for
+/// 2 thick_mm under the ceiling that it holds, falls off as steeply as an overhang may until it meets the wall or the
+/// floor, and stands on legs between arches and where no wall is near, a quarter as wide as they are high. So it prints
+/// whatever lies beside it.
 std::vector<KeptPart> ribs_under(const FlatCeiling& ceiling, const std::vector<int>& cells, const ColumnCosts& costs,
                                  const RibOptions& options);
 
