@@ -30,7 +30,7 @@ std::string half_wall_text(double t, const JointProblem& joint, const StandOptio
 }  // namespace
 
 void add_advice(Report& report, const Input& input, const JointProblem& joint, const StandOptions& options,
-                  const Job& job) {
+                const Job& job) {
   if (const auto t = t_with_half_wall(input, joint, options, job))
     report.hints.push_back(
         fmt::format("with a wall of {:.3g} mm, or printed twice as high with the wall as it is, carving could {}",

@@ -12,6 +12,6 @@ namespace aplomb {
 ///
 /// \par Cost  a carving's bound on a coarse grid.
 void add_advice(Report& report, const Input& input, const JointProblem& joint, const StandOptions& options,
-                  const Job& job);
+                const Job& job);
 
 }  // namespace aplomb

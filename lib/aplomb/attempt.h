@@ -16,7 +16,7 @@ namespace aplomb {
 struct Attempt {
   JointProblem joint;
   Carving carving;
-  std::optional<Shell> shell;  ///< where it reaches, or add_shell() was called
+  std::optional<Shell> shell;               ///< where it reaches, or add_shell() was called
   std::optional<CeilingFigures> ceiling{};  ///< where ceilings were to be shaped and there is a shell
   std::optional<SolidVolume> volume{};      ///< what might be carved
 };

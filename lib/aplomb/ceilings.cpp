@@ -17,7 +17,7 @@
 namespace aplomb {
 namespace {
 
-constexpr int most_rounds = 8;
+constexpr int most_rounds = 6;
 constexpr double thick_ratio = 1.25;    // of a rib to the least wall: what voxels and simplifying may take
 constexpr double slot_ratio = 0.94;     // of a slot to the widest bridge
 constexpr double steeper_deg = 2;       // arches than the limit
@@ -33,8 +33,10 @@ class CeilingJudge {
  public:
   explicit CeilingJudge(const Rules& rules) : rules_(rules) {}
 
-  Result<std::vector<Wrong>> judge(const Shell& shell, const Job& job) {
+  /// \param at_once  spans, which cost most, are left out where slopes are wrong already: `all_judged` is false then.
+  Result<std::vector<Wrong>> judge(const Shell& shell, bool at_once, const Job& job) {
     wrong_.clear();
+    all_judged_ = true;
     if (shell.voids == 0) return wrong_;
     const auto solid = check_solid(shell.mesh, job.part(0, 0.2));
     if (!solid) return tl::unexpected(solid.error());
@@ -46,14 +48,17 @@ class CeilingJudge {
         .and_then([&] {
           return add("void.island", [&] { return measure_void_island(printed, *slices, rules_, job.part(0.5, 0.6)); });
         })
-        .and_then([&] {
+        .and_then([&]() -> Result<void> {
+          all_judged_ = !at_once || wrong_.empty();
+          if (!all_judged_) return {};
           return add("void.bridge", [&] { return measure_void_bridge(printed, *slices, rules_, job.part(0.6, 0.8)); });
         })
-        .and_then([&] {
-          return add("wall.void_void", [&] { return wall_void_void(printed, rules_, job.part(0.8, 1)); });
-        })
+        .and_then(
+            [&] { return add("wall.void_void", [&] { return wall_void_void(printed, rules_, job.part(0.8, 1)); }); })
         .map([&] { return std::move(wrong_); });
   }
+
+  bool all_judged() const { return all_judged_; }
 
  private:
   template <class Measure>
@@ -70,6 +75,7 @@ class CeilingJudge {
 
   const Rules& rules_;
   std::vector<Wrong> wrong_;
+  bool all_judged_ = true;
 };
 
 Box3 grown(Box3 box, double by_mm) {
@@ -167,14 +173,17 @@ Result<Attempt> with_printable_ceilings(const Attempt& as_carved, const Rules& r
   CeilingFigures figures;
   Attempt now = as_carved;
   std::optional<Attempt> best;
+  bool best_is_sure = false;
   for (int round = 0;; ++round) {
     const Job part = job.part(double(round) / (most_rounds + 1), (round + 1.0) / (most_rounds + 1));
-    const auto wrong = judge.judge(*now.shell, part.part(0, 0.4));
+    const auto wrong = judge.judge(*now.shell, round < most_rounds, part.part(0, 0.4));
     if (!wrong) return tl::unexpected(wrong.error());
     figures.left = wrong->size();
     compare(figures, now, as_carved);
     now.ceiling = figures;
-    if (!best || wrong->size() < best->ceiling->left) best = now;
+    const bool is_sure = judge.all_judged();
+    if (!best || is_sure > best_is_sure || (is_sure == best_is_sure && figures.left < best->ceiling->left))
+      best = now, best_is_sure = is_sure;
     if (wrong->empty() || round == most_rounds || !shaper.answer(*wrong, now, round, figures)) break;
     ++figures.rounds;
     auto again = carve_again(without(*as_carved.volume, shaper.kept()), part.part(0.4, 1));

@@ -73,11 +73,13 @@ void add_ceiling_hints(Report& report, const Attempt& made) {
   const auto& ceiling = report.carving->ceiling;
   if (!ceiling) return;
   if (ceiling->left > 0)
-    report.hints.push_back(fmt::format("not all ceilings of the voids print as they are: {} left (see the judgement)",
-                                       ceiling->left == 1 ? "1 place is" : fmt::format("{} places are", ceiling->left)));
+    report.hints.push_back(
+        fmt::format("not all ceilings of the voids print as they are: {} left (see the judgement)",
+                    ceiling->left == 1 ? "1 place is" : fmt::format("{} places are", ceiling->left)));
   if (ceiling->reached_without && !made.carving.reaches)
-    report.hints.push_back(fmt::format("with ceilings as they come (--ceiling any) it would stand: up to {:.1f} degrees",
-                                       ceiling->bound_rad * 180 / std::numbers::pi));
+    report.hints.push_back(
+        fmt::format("with ceilings as they come (--ceiling any) it would stand: up to {:.1f} degrees",
+                    ceiling->bound_rad * 180 / std::numbers::pi));
 }
 
 /// The judge sees the print as it lies on the plate.

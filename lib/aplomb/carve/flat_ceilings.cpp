@@ -24,8 +24,7 @@ Corners corners_of(const TriangleMesh& mesh, std::size_t t) {
 
 /// Marks the cells that a facet lies over, by points of it half a cell apart.
 void draw(const Corners& facet, FlatCeiling& ceiling) {
-  const double longest =
-      std::max({norm(facet[1] - facet[0]), norm(facet[2] - facet[1]), norm(facet[0] - facet[2])});
+  const double longest = std::max({norm(facet[1] - facet[0]), norm(facet[2] - facet[1]), norm(facet[0] - facet[2])});
   const int steps = 1 + static_cast<int>(longest / (0.5 * ceiling.cell_mm));
   for (int i = 0; i <= steps; ++i)
     for (int j = 0; i + j <= steps; ++j) {

@@ -17,7 +17,9 @@ struct FlatCeiling {
   int columns = 0, rows = 0;
   std::vector<double> top_mm;  ///< of each cell, rows one after the other; -infinity where the ceiling is not
 
-  bool holds(int cell) const { return top_mm[static_cast<std::size_t>(cell)] > -std::numeric_limits<double>::infinity(); }
+  bool holds(int cell) const {
+    return top_mm[static_cast<std::size_t>(cell)] > -std::numeric_limits<double>::infinity();
+  }
   Vec2 middle_mm(int cell) const {
     return {origin_mm.x + cell_mm * (cell % columns), origin_mm.y + cell_mm * (cell / columns)};
   }

@@ -14,8 +14,8 @@ struct KeptPart {
   std::function<double(Vec3)> depth_mm;  ///< distance to its surface, positive inside; safe to call from any thread
 };
 
-/// The same volume without what is kept: phi raised to the depth in any part. Where a part's surface is plane, phi's zero
-/// is, too. The wall's guarantee holds, for phi is nowhere lowered.
+/// The same volume without what is kept: phi raised to the depth in any part. Where a part's surface is plane, phi's
+/// zero is, too. The wall's guarantee holds, for phi is nowhere lowered.
 ///
 /// \par Cost  O(blocks of the region in the parts' boxes).
 SolidVolume without(const SolidVolume& volume, const std::vector<KeptPart>& parts);

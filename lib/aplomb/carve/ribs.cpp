@@ -178,8 +178,12 @@ class RibCutter {
   Arch best_arch(double begin, double end) const {
     Arch best;
     for (const double share : apexes) {
-      Arch arch{begin, end, begin + share * (end - begin), everywhere_mm,
-                std::tan(options_.slope_deg * std::numbers::pi / 180), 0};
+      Arch arch{begin,
+                end,
+                begin + share * (end - begin),
+                everywhere_mm,
+                std::tan(options_.slope_deg * std::numbers::pi / 180),
+                0};
       const auto spans = [&](const Hold& hold) { return hold.along_mm > begin && hold.along_mm < end; };
       for (const Hold& hold : holds_)
         if (spans(hold))

@@ -32,14 +32,15 @@ class ColumnCosts {
 };
 
 struct RibOptions {
-  double thick_mm = 1;  ///< of a rib, > 0
-  double slot_mm = 9;   ///< most between two ribs, > 0
+  double thick_mm = 1;    ///< of a rib, > 0
+  double slot_mm = 9;     ///< most between two ribs, > 0
   double slope_deg = 47;  ///< of the arches in a rib, from level; 90: a rib has none
-  double floor_mm = 0;  ///< where ribs end
+  double floor_mm = 0;    ///< where ribs end
 };
 
-/// Upright sheets of material under cells of a ceiling, from it down to the floor, so that no slot between them is wider
-/// than slot_mm. Of twelve directions and the places that leave no wider slot, those that cost least. At least one.
+/// Upright sheets of material under cells of a ceiling, from it down to the floor, so that no slot between them is
+/// wider than slot_mm. Of twelve directions and the places that leave no wider slot, those that cost least. At least
+/// one.
 ///
 /// A rib is cut out in pointed arches as steep as slope_deg where that gains something. What is left is whole for
 /// 2 thick_mm under the ceiling that it holds, falls off as steeply as an overhang may until it meets the wall or the
