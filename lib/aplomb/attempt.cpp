@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "aplomb/ceilings.h"
 #include "aplomb/drained.h"
 
 namespace aplomb {
@@ -51,6 +52,22 @@ double shortfall_t(const ReshapedAttempt& reshaped, const JointProblem& joint) {
   return joint.required_t - largest_t(joint.problem, body);
 }
 
+/// A shell whose voids print: ceilings first, for the holes go where the void then is.
+Result<Attempt> with_printable_voids(Attempt made, const Input& input, const StandOptions& options, StageClock& clock,
+                                     const Job& job) {
+  if (shapes_ceilings(options)) {
+    const CarveAgain carve_again = [&](const SolidVolume& allowed, const Job& part) {
+      return carve_shell(allowed, input, made.joint, options, {{}, aimed_beyond_rad, true}, clock, part);
+    };
+    auto shaped = with_printable_ceilings(made, options.judge.rules, carve_again, job.part(0, 0.5));
+    if (!shaped) return shaped;
+    made = std::move(*shaped);
+    clock.lap("ceilings");
+  }
+  if (!hole_demand(options)) return made;
+  return drained(std::move(made), input, options, clock, job.part(0.5, 1));
+}
+
 }  // namespace
 
 Result<Attempt> carve_shell(const SolidVolume& volume, const Input& input, const JointProblem& joint,
@@ -64,12 +81,12 @@ Result<Attempt> carve_shell(const SolidVolume& volume, const Input& input, const
     if (!carving) return tl::unexpected(carving.error());
     clock.lap("carve");
     carving->reaches = carving->t >= joint.required_t;
-    if (!carving->reaches) return Attempt{joint, std::move(*carving), std::nullopt, volume};
+    if (!carving->reaches && !allowance.always) return Attempt{joint, std::move(*carving), std::nullopt, volume};
     auto shell = build_shell(input.solid, carving->field, {.wall_mm = options.wall_mm}, job.part(0.3, 1));
     if (!shell) return tl::unexpected(shell.error());
     clock.lap("shell");
     const double short_rad = required_rad - std::atan(largest_t(joint.problem, moments(shell->mesh) - allowance.taken));
-    if (short_rad <= 0 || options.aim == CarveAim::stable || round == most_carvings)
+    if (short_rad <= 0 || !carving->reaches || options.aim == CarveAim::stable || round == most_carvings)
       return Attempt{joint, std::move(*carving), std::move(*shell), volume};
     aimed_rad += short_rad + aimed_beyond_rad;
   }
@@ -85,11 +102,9 @@ Result<Attempt> attempt_carving(const Input& input, const StandOptions& asked, S
   clock.lap("voxelize");
   const auto joint = joint_problem(input.solid.mesh(), options.poses, kind_of(options));
   if (!joint) return tl::unexpected(joint.error());
-  const bool drills = hole_demand(options).has_value();
-  auto made =
-      carve_shell(*volume, input, *joint, options, {{}, aimed_beyond_rad}, clock, job.part(0.4, drills ? 0.6 : 1));
-  if (!made || !made->shell || !drills) return made;
-  return drained(std::move(*made), input, options, clock, job.part(0.6, 1));
+  auto made = carve_shell(*volume, input, *joint, options, {{}, aimed_beyond_rad}, clock, job.part(0.4, 0.6));
+  if (!made || !made->shell) return made;
+  return with_printable_voids(std::move(*made), input, options, clock, job.part(0.6, 1));
 }
 
 Result<void> add_shell(Attempt& attempt, const Input& input, const StandOptions& asked, StageClock& clock,
@@ -99,8 +114,7 @@ Result<void> add_shell(Attempt& attempt, const Input& input, const StandOptions&
   if (!shell) return tl::unexpected(shell.error());
   attempt.shell = std::move(*shell);
   clock.lap("shell");
-  if (!hole_demand(options)) return {};
-  auto made = drained(std::move(attempt), input, options, clock, job.part(0.3, 1));
+  auto made = with_printable_voids(std::move(attempt), input, options, clock, job.part(0.3, 1));
   if (!made) return tl::unexpected(made.error());
   attempt = std::move(*made);
   return {};

@@ -17,8 +17,9 @@ namespace aplomb {
 struct Attempt {
   JointProblem joint;
   Carving carving;
-  std::optional<Shell> shell;         ///< where it reaches, or add_shell() was called; drilled where it has holes
-  std::optional<SolidVolume> volume;  ///< that was carved
+  std::optional<Shell> shell;               ///< where it reaches, or add_shell() was called; drilled where it has holes
+  std::optional<SolidVolume> volume;        ///< that was carved
+  std::optional<CeilingFigures> ceiling{};  ///< where ceilings were to be shaped and there is a shell
   std::vector<Hole> holes{};
   std::vector<std::string> hints{};
 };
@@ -27,6 +28,7 @@ struct Attempt {
 struct CarvingAllowance {
   Moments taken;          ///< of the material that will be taken besides the void
   double beyond_rad = 0;  ///< by which the angle asked for is to be exceeded at first
+  bool always = false;    ///< a shell also of what does not reach
 };
 
 /// Carves and builds the shell; where simplifying it cost more than was aimed beyond, carves again for as much more.
@@ -36,12 +38,14 @@ Result<Attempt> carve_shell(const SolidVolume& volume, const Input& input, const
                             const Job& job);
 
 /// Voxelises, carves and builds the shell, with the escape holes that the process asks for. \return as voxelize(),
-/// joint_problem(), carve_shell() and drained().
+/// joint_problem(), carve_shell(), with_printable_ceilings() and drained().
 ///
-/// The shell is left out where the carving does not reach: see add_shell().
+/// The shell is left out where the carving does not reach: see add_shell(). Ceilings are shaped where that is asked for
+/// (with_printable_ceilings()), which may leave a carving short of what it reached.
 Result<Attempt> attempt_carving(const Input& input, const StandOptions& options, StageClock& clock, const Job& job);
 
-/// Builds the shell of a carving that does not reach, with escape holes. \return as build_shell() and drained().
+/// Builds the shell of a carving that does not reach, with escape holes and ceilings that print. \return as
+/// attempt_carving().
 Result<void> add_shell(Attempt& attempt, const Input& input, const StandOptions& options, StageClock& clock,
                        const Job& job);
 

@@ -84,6 +84,7 @@ class Drainer {
     auto carved = carve_shell(*made_.volume, input_, made_.joint, options_, {taken_, beyond_rad_}, clock_, job);
     if (!carved) return tl::unexpected(carved.error());
     carved->hints = std::move(made_.hints);
+    carved->ceiling = made_.ceiling;
     made_ = std::move(*carved);
     if (made_.shell || !options_.best_effort) return {};
     auto shell = build_shell(input_.solid, made_.carving.field, {.wall_mm = options_.wall_mm}, job);

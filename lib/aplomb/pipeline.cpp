@@ -5,6 +5,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <numbers>
 
 #include "aplomb/advice.h"
 #include "aplomb/attempt.h"
@@ -64,7 +65,22 @@ CarvingFigures carving_figures(const Carving& carving, const Input& input, const
           hangs ? -bound_rad : bound_rad,
           bound_rad - std::atan(carving.t),
           static_cast<std::size_t>(carving.planes),
-          joint.is_surplus ? BoundOf::surplus : (hangs ? BoundOf::tilt : BoundOf::tip)};
+          joint.is_surplus ? BoundOf::surplus : (hangs ? BoundOf::tilt : BoundOf::tip),
+          {}};
+}
+
+/// What ceilings that print left undone.
+void add_ceiling_hints(Report& report, const Attempt& made) {
+  const auto& ceiling = report.carving->ceiling;
+  if (!ceiling) return;
+  if (ceiling->left > 0)
+    report.hints.push_back(
+        fmt::format("not all ceilings of the voids print as they are: {} left (see the judgement)",
+                    ceiling->left == 1 ? "1 place is" : fmt::format("{} places are", ceiling->left)));
+  if (ceiling->reached_without && !made.carving.reaches)
+    report.hints.push_back(
+        fmt::format("with ceilings as they come (--ceiling any) it would stand: up to {:.1f} degrees",
+                    ceiling->bound_rad * 180 / std::numbers::pi));
 }
 
 /// The judge sees the print as it lies on the plate.
@@ -113,6 +129,8 @@ Result<StandRun> finish(StandRun run, const Input& shaped, std::optional<Attempt
   Report& report = run.report;
   if (made) {
     report.carving = carving_figures(made->carving, shaped, made->joint, options);
+    report.carving->ceiling = made->ceiling;
+    add_ceiling_hints(report, *made);
     run.shell = std::move(made->shell);
     take_holes(run, shaped, *made);
     run.carving = std::move(made->carving);

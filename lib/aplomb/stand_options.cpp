@@ -26,6 +26,11 @@ double voxel_mm(const StandOptions& options, const Box3& box) {
   return options.voxel_mm.value_or(std::min(options.wall_mm / 4, box.diagonal() / 256));
 }
 
+bool shapes_ceilings(const StandOptions& options) {
+  const bool by_default = options.judge.rules.process() == Process::fdm;
+  return options.ceiling ? *options.ceiling == Ceiling::automatic : by_default;
+}
+
 RowKind kind_of(const StandOptions& options) { return options.robust ? RowKind::robust : RowKind::nominal; }
 
 }  // namespace aplomb

@@ -25,6 +25,12 @@ enum class Holes {
   none,
 };
 
+/// Whether voids are shaped so that their ceilings print.
+enum class Ceiling {
+  automatic,  ///< so that the judge's checks of ceilings pass
+  any,        ///< as balance alone has them
+};
+
 struct StandOptions {
   std::vector<Pose> poses{Pose{}};  ///< all of them are to hold at once, each at its required angle; not empty
   bool robust = false;              ///< asked of the robust tip angles instead of the nominal ones
@@ -33,6 +39,7 @@ struct StandOptions {
   ReshapeOptions reshape = {};  ///< its wall_mm and carves follow from the rest
   Holes holes = Holes::automatic;
   double wall_mm = 1.6;                 ///< > 0; four lines of a 0.4 mm nozzle
+  std::optional<Ceiling> ceiling = {};  ///< none: automatic where the judge's process is fdm, any otherwise
   std::optional<double> voxel_mm = {};  ///< none: at least 4 voxels in the wall and about 256 on the diagonal
   double least_void_mm = 1;             ///< no void narrower, >= 0; nor narrower than an escape hole
   double least_volume_mm3 = 10;         ///< no void smaller, >= 0; nor than four balls as wide as an escape hole
@@ -47,6 +54,9 @@ std::string find_problem(const StandOptions& options);
 
 /// The voxel that `options` ask for or that suits a solid of this size.
 double voxel_mm(const StandOptions& options, const Box3& box);
+
+/// Whether `options` ask for voids whose ceilings print.
+bool shapes_ceilings(const StandOptions& options);
 
 /// The rows that `options` ask for.
 RowKind kind_of(const StandOptions& options);

@@ -83,6 +83,7 @@ TEST(JobFile, ReadsEveryKeyOfTheExampleAndWritesItAgain) {
     else if (value == "stable") field = "light";
     else if (value == "auto") field = "only";
     else if (value == "none") field = "auto";
+    else if (value == "any") field = "auto";
     else if (value == "wall.thin" || value == "stand.robust") field = "void.island";
     else field = value.get<std::string>() + "2";
     const auto read = parse(changed);

@@ -70,6 +70,10 @@ void add_carving_flags(CLI::App* app, Arguments& a) {
       app, "--aim", {"least", "light", "stable"}, [&options](const std::string& name) { options.aim = aims.at(name); },
       "least: remove least; light: remove most; stable: the largest angle (default least)");
   add_quantity(app, "--wall", options.wall_mm, lengths, "least wall between void and outside (default: the process's)");
+  static const std::map<std::string, Ceiling> ceilings{{"auto", Ceiling::automatic}, {"any", Ceiling::any}};
+  add_choice(
+      app, "--ceiling", {"auto", "any"}, [&options](const std::string& name) { options.ceiling = ceilings.at(name); },
+      "auto: voids whose ceilings print without supports (default for fdm); any: as balance has them");
   add_quantity(app, "--voxel", options.voxel_mm, lengths, "grid spacing (default: 4 in a wall, 256 on the diagonal)");
   add_quantity(app, "--least-void", options.least_void_mm, lengths, "no void narrower than this (default 1mm)");
   app->add_option("--least-volume", options.least_volume_mm3, "no void smaller than this, in mm3 (default 10)");

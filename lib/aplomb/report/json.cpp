@@ -77,11 +77,22 @@ Json json(const PoseReport& entry, std::size_t number) {
 
 Json json(const CarvingFigures& c) {
   constexpr std::array<const char*, 3> bounds{"bound_deg", "bound_tilt_deg", "bound_surplus_deg"};
-  return {{"aim", c.aim},
-          {"void_mm3", c.void_mm3},
-          {bounds[static_cast<std::size_t>(c.bound_of)], degrees(c.bound_rad)},
-          {"gap_deg", degrees(c.gap_rad)},
-          {"planes", c.planes}};
+  const char* bound = bounds[static_cast<std::size_t>(c.bound_of)];
+  Json object{{"aim", c.aim},
+              {"void_mm3", c.void_mm3},
+              {bound, degrees(c.bound_rad)},
+              {"gap_deg", degrees(c.gap_rad)},
+              {"planes", c.planes}};
+  if (const auto& ceiling = c.ceiling)
+    object["ceiling"] = {{"ribs", ceiling->ribs},
+                         {"pillars", ceiling->pillars},
+                         {"fills", ceiling->fills},
+                         {"rounds", ceiling->rounds},
+                         {"findings_left", ceiling->left},
+                         {bound, degrees(ceiling->bound_rad)},
+                         {"cost_deg", degrees(ceiling->cost_rad)},
+                         {"material_mm3", ceiling->material_mm3}};
+  return object;
 }
 
 Json json(const DeformationFigures& d) {

@@ -27,6 +27,19 @@ enum class BoundOf {
   surplus,  ///< of several poses, atan of what the tangents of all exceed those asked for: none is larger
 };
 
+/// What was kept in the voids so that their ceilings print.
+struct CeilingFigures {
+  std::size_t ribs = 0;     ///< upright sheets that ceilings are bridged between
+  std::size_t pillars = 0;  ///< under what would start in mid-air
+  std::size_t fills = 0;    ///< where walls between voids were too thin
+  std::size_t rounds = 0;   ///< times it was carved again
+  std::size_t left = 0;     ///< findings of the judge that remain
+  bool reached_without = false;
+  double bound_rad = 0;     ///< what no void in this volume does better than, ceilings or not (see bound_of)
+  double cost_rad = 0;      ///< by which the bound of what was carved falls short of that
+  double material_mm3 = 0;  ///< that the void holds less than without it
+};
+
 struct CarvingFigures {
   std::string aim;  ///< "least", "light" or "stable"
   double void_mm3 = 0;
@@ -34,6 +47,7 @@ struct CarvingFigures {
   double gap_rad = 0;      ///< between the bound and what was reached
   std::size_t planes = 0;  ///< tried until it was proved
   BoundOf bound_of = BoundOf::tip;
+  std::optional<CeilingFigures> ceiling{};  ///< where ceilings were to be shaped
 };
 
 /// What was done to the outside.

@@ -132,12 +132,24 @@ std::string bending(const DeformationFigures& d) {
                                  " mm at most, turned by up to " + degrees(d.max_turn_rad) + " degrees" + end);
 }
 
+std::string count(std::size_t number, const std::string& what) {
+  return std::to_string(number) + " " + what + (number == 1 ? "" : "s");
+}
+
+std::string shaping(const CeilingFigures& c) {
+  if (c.rounds == 0) return c.left == 0 ? "" : line("ceilings", "not all print, and nothing was found that helps");
+  std::string text = count(c.ribs, "rib") + ", " + count(c.pillars, "pillar") + ", " + count(c.fills, "fill");
+  text += " in the voids, so that they print; they cost " + degrees(c.cost_rad) + " degrees of what could be reached";
+  return line("ceilings", text);
+}
+
 std::string work(const Report& report) {
   std::string text;
   if (report.deformation) text += bending(*report.deformation);
   if (report.carving)
     text += line("void", figure(report.carving->void_mm3 * 1e-3) + " cm3; " + bound(*report.carving) + " (aim " +
                              report.carving->aim + ", " + std::to_string(report.carving->planes) + " planes)");
+  if (report.carving && report.carving->ceiling) text += shaping(*report.carving->ceiling);
   if (report.wall)
     text += line("wall", number(report.wall->measured_mm, 3) + " mm measured, " + number(report.wall->required_mm, 3) +
                              " asked");

@@ -9,7 +9,8 @@
 namespace aplomb::detail {
 
 inline constexpr std::array<const char*, 3> aim_names{"least", "light", "stable"};  // in CarveAim's order
-inline constexpr std::array<const char*, 2> holes_names{"auto", "none"};  // in Holes' order
+inline constexpr std::array<const char*, 2> ceiling_names{"auto", "any"};           // in Ceiling's order
+inline constexpr std::array<const char*, 2> holes_names{"auto", "none"};            // in Holes' order
 inline constexpr std::array<const char*, 3> deform_names{"never", "auto", "only"};  // in Deform's order
 
 template <class Visitor, class Radius>
@@ -86,6 +87,7 @@ void visit_job(const Visitor& v, JobFile& job) {
   v.name("process", process_names, job.rules.process);
   v.preset("process", job.options.wall_mm, wall_of_process);
   v.value("wall_mm", job.options.wall_mm);
+  v.name("ceiling", ceiling_names, job.options.ceiling);
   v.value("voxel_mm", job.options.voxel_mm);
   v.value("least_void_mm", job.options.least_void_mm);
   v.value("least_volume_mm3", job.options.least_volume_mm3);
