@@ -250,6 +250,18 @@ TEST(VoidHoles, are_counted_where_the_cavity_is_not_closed) {
   EXPECT_EQ(count(1, 1), -1);
 }
 
+TEST(VoidHoles, one_of_5_mm_is_enough_for_powder) {
+  const auto cavities_at = [](double diameter) {
+    return find_cavities(printed(hollow_ball(14, 2, diameter / 2, 0)), 4);
+  };
+  const Rules powder(Process::powder);
+  EXPECT_EQ(void_holes(*cavities_at(4.9), powder).front().measured, 1);
+  EXPECT_EQ(void_holes(*cavities_at(5.1), powder).front().measured, 2);
+  EXPECT_FALSE(void_hole_place(*cavities_at(4.9), powder).empty());
+  EXPECT_TRUE(void_hole_place(*cavities_at(5.1), powder).empty());
+  EXPECT_EQ(void_holes(*cavities_at(6), Rules(Process::sla)).front().measured, 1);
+}
+
 TEST(VoidHolePlace, resin_stays_below_the_lowest_lip) {
   const Rules rules(Process::sla);
   const auto left = [&](const TriangleMesh& mesh, double tilt) {

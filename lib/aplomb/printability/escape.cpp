@@ -39,6 +39,12 @@ Place distance_missing(const Cavity& cavity, const std::vector<Opening>& holes) 
   return {std::max(0.0, apart_ratio * cavity.box_mm.diagonal() - apart), holes.front().at_mm, cavity.box_mm};
 }
 
+/// One hole, so wide that the process asks for no second.
+bool are_one_wide(const std::vector<Opening>& holes, const Rules& rules) {
+  return holes.size() == 1 && rules.limits("void.lone_hole_mm") &&
+         holes.front().diameter_mm >= rules.number("void.lone_hole_mm");
+}
+
 /// What is on the wrong side of the limit, or the worst alone; worst first.
 std::vector<Place> worst_first(std::vector<Place> places, double limit, bool is_least) {
   const auto is_worse = [&](double a, double b) { return is_least ? a < b : a > b; };
@@ -75,7 +81,7 @@ std::vector<Place> void_holes(std::span<const Cavity> cavities, const Rules& rul
   std::vector<Place> places;
   for (const Cavity& cavity : cavities)
     if (const auto wide = holes(cavity, rules.number("void.hole_mm")); !wide.empty())
-      places.push_back({double(wide.size()), wide.front().at_mm, cavity.box_mm});
+      places.push_back({are_one_wide(wide, rules) ? *limit : double(wide.size()), wide.front().at_mm, cavity.box_mm});
   return worst_first(std::move(places), *limit, true);
 }
 
@@ -85,7 +91,7 @@ std::vector<Place> void_hole_place(std::span<const Cavity> cavities, const Rules
   const bool is_liquid = rules.process() == Process::sla;
   std::vector<Place> places;
   for (const Cavity& cavity : cavities)
-    if (const auto wide = holes(cavity, rules.number("void.hole_mm")); !wide.empty())
+    if (const auto wide = holes(cavity, rules.number("void.hole_mm")); !wide.empty() && !are_one_wide(wide, rules))
       places.push_back(is_liquid ? drainage(cavity, wide) : distance_missing(cavity, wide));
   return worst_first(std::move(places), *limit, false);
 }

@@ -18,7 +18,7 @@ Result<std::vector<Cavity>> find_cavities(const PrintedSolid& printed, const Rul
 std::vector<Place> void_closed(std::span<const Cavity> cavities, const Rules& rules);
 
 /// For the check void.holes: the number of holes of each cavity that is not closed, fewest first; those that are below
-/// the limit, or the worst alone. The place is the widest hole.
+/// the limit, or the worst alone; a single hole of void.lone_hole_mm counts as enough. The place is the widest hole.
 std::vector<Place> void_holes(std::span<const Cavity> cavities, const Rules& rules);
 
 /// For the check void.hole_place, in mm, worst first; of each cavity that is not closed:
@@ -26,7 +26,8 @@ std::vector<Place> void_holes(std::span<const Cavity> cavities, const Rules& rul
 ///   cavity's lowest point, and of how far the highest hole's upper lip lies below its highest point. The place is that
 ///   point.
 /// - powder, binder: how much farther apart the two holes that are farthest apart should be: what is missing to half
-///   the cavity's diagonal; of a single hole, all of it. The place is the widest hole.
+///   the cavity's diagonal; of a single hole, all of it, and nothing where it is enough alone. The place is the widest
+///   hole.
 /// The rest as in void_holes().
 std::vector<Place> void_hole_place(std::span<const Cavity> cavities, const Rules& rules);
 

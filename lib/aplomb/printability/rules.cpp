@@ -57,6 +57,12 @@ constexpr std::array rules{
               least,
               {Limits{{}, {}, 1}, fails(3.5), fails(4), fails(5)},
               a_number},
+    CheckRule{"void.lone_hole_mm",
+              "mm",
+              "diameter from which a single escape hole is enough",
+              least,
+              {std::nullopt, std::nullopt, fails(5)},
+              a_number},
     CheckRule{"void.hole_place",
               "mm",
               "how far the lowest hole is above the void's bottom or the vent below its top (sla); what the farthest "
