@@ -32,7 +32,7 @@ class DrillingCommand : public CommandLine {
 };
 
 TEST_F(DrillingCommand, CutsHolesThatTheJudgeAsksForAndStandsWithThem) {
-  const auto closed = report("--process sla --holes none");
+  const auto closed = report("--process sla --holes none", 6);
   EXPECT_FALSE(closed.contains("holes"));
   EXPECT_TRUE(failing(closed).contains("void.closed"));
   const auto open = report("--process sla");
