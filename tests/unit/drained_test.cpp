@@ -32,7 +32,8 @@ Attempt carved(const Input& input, StandOptions options) {
   options = with_voids_for_holes(options);
   StageSeconds seconds;
   StageClock clock(seconds);
-  const auto volume = voxelize(input.solid, {options.wall_mm, voxel_mm(options, input.solid.box()), options.least_void_mm});
+  const auto volume =
+      voxelize(input.solid, {options.wall_mm, voxel_mm(options, input.solid.box()), options.least_void_mm});
   const auto joint = joint_problem(input.solid.mesh(), options.poses, kind_of(options));
   return carve_shell(*volume, input, *joint, options, {}, clock, {}).value();
 }

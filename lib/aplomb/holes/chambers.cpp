@@ -16,7 +16,7 @@ namespace {
 
 constexpr double spacing_ratio = 1.0 / 6;  // of the ball's diameter
 constexpr std::array<double, 5> room_ratios{0.8, 0.9, 1.0, 1.1, 1.2};
-constexpr double reach_ratio = 1.1;  // of the ball's diameter: between chambers that a neck joins
+constexpr double reach_ratio = 1.4;  // of the ball's diameter: between chambers that a neck joins, and the lattice
 
 enum class Part : char { none, own, other };
 
@@ -158,8 +158,8 @@ std::optional<KeptPart> wall_round_chamber(const TriangleMesh& surface, Vec3 ins
   box.max = box.max + Vec3{beside, beside, beside};
   return KeptPart{box, [sides, box, thick_mm](Vec3 p) {
                     const double depth =
-                        0.5 * (thick_mm -
-                               std::abs(sides->distance_of(Part::own, p) - sides->distance_of(Part::other, p)));
+                        0.5 *
+                        (thick_mm - std::abs(sides->distance_of(Part::own, p) - sides->distance_of(Part::other, p)));
                     return depth > 0 ? std::min(depth, kept_box(box).depth_mm(p)) : depth;
                   }};
 }
