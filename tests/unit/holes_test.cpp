@@ -6,8 +6,10 @@
 #include <set>
 
 #include "aplomb/adapters/embree/surface_distance.h"
+#include "aplomb/holes/chambers.h"
 #include "aplomb/holes/drill.h"
 #include "aplomb/holes/hole_places.h"
+#include "aplomb/holes/undrained.h"
 #include "aplomb/printability/escape.h"
 #include "aplomb/printability/void_cup.h"
 #include "support/prints.h"
@@ -182,6 +184,64 @@ TEST(EscapeHolePlaces, AreCancelledAtEveryReport) {
     ASSERT_FALSE(result.has_value());
     EXPECT_EQ(result.error().code, ErrorCode::cancelled);
   }
+}
+
+/// Two rooms above each other, 14 mm across and 12 mm high, and a bore of that radius and 0.5 mm long between.
+TriangleMesh two_rooms(double bore_radius_mm) {
+  return rounded_to_float(test::lathe(
+      {{0, 0}, {7, 0}, {7, 12}, {bore_radius_mm, 12}, {bore_radius_mm, 12.5}, {7, 12.5}, {7, 24.5}, {0, 24.5}}, 48));
+}
+
+TEST(WallRoundAChamber, PartsTheRoomsOfAVoidWhereTheBallDoesNotPass) {
+  const auto wall = wall_round_chamber(two_rooms(2), {0, 0, 6}, 5, 1.5);
+  ASSERT_TRUE(wall.has_value());
+  for (const double x : {-1.9, 0.0, 1.9}) {
+    EXPECT_NEAR(wall->depth_mm({x, 0, 12.25}), 0.75, 0.45);
+    EXPECT_LT(wall->depth_mm({x, 0, 9.5}), 0);
+    EXPECT_LT(wall->depth_mm({x, 0, 15}), 0);
+  }
+  EXPECT_LT(wall->depth_mm({0, 0, 6}), 0);
+  EXPECT_LT(wall->depth_mm({0, 0, 18}), 0);
+}
+
+TEST(WallRoundAChamber, IsNoneWhereTheBallGetsEverywhere) {
+  EXPECT_FALSE(wall_round_chamber(two_rooms(4), {0, 0, 6}, 5, 1.5).has_value());
+}
+
+TEST(Undrained, AreCavitiesThatTheJudgeFailsAndNoneThatAreDrilled) {
+  const Rules rules(Process::sla);
+  const auto closed = undrained(ball().mesh(), rules);
+  ASSERT_EQ(std::ranges::count(*closed, false, &Undrained::is_cup), 1);
+  EXPECT_LT(norm(closed->front().at_mm - Vec3{0, 0, 20}), 3);
+  EXPECT_TRUE(undrained(drilled(ball(), Process::sla).mesh, rules)->empty());
+}
+
+TEST(Undrained, AreCancelledAtEveryReport) {
+  test::CancelAt never(1 << 30);
+  ASSERT_TRUE(undrained(ball().mesh(), Rules(Process::sla), never.job()).has_value());
+  for (int k = 1; k <= never.reports(); k += 1 + never.reports() / 12) {
+    test::CancelAt at_k(k);
+    const auto result = undrained(ball().mesh(), Rules(Process::sla), at_k.job());
+    ASSERT_FALSE(result.has_value());
+    EXPECT_EQ(result.error().code, ErrorCode::cancelled);
+  }
+}
+
+TEST(EscapeHolePlaces, KeepOffTheFixingOfAThread) {
+  Pose hangs;
+  hangs.way = HangingPose{};
+  const Hollow hollow = box();
+  const auto before =
+      choose_holes(hollow.outer, std::array{hollow.inner}, *hole_demand(Rules(Process::powder)), {{&hangs, 1}, {}});
+  ASSERT_FALSE(before->holes.empty());
+  HangingPose hung;
+  hung.attachments_mm = {before->holes.front().at(before->holes.front().mouth_mm)};
+  hangs.way = hung;
+  const auto after =
+      choose_holes(hollow.outer, std::array{hollow.inner}, *hole_demand(Rules(Process::powder)), {{&hangs, 1}, {}});
+  ASSERT_FALSE(after->holes.empty());
+  for (const Hole& hole : after->holes)
+    EXPECT_GT(norm(hole.at(hole.mouth_mm) - hung.attachments_mm.front()), 0.5 * hole.bore_mm + 1);
 }
 
 TEST(EscapeHoleDemand, IsNoneWhereNothingHasToGetOut) {
