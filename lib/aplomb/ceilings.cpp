@@ -51,7 +51,8 @@ class CeilingJudge {
   /// Looks at the model as it came, whose triangles are the shell's first.
   Result<void> look_at_model(const Shell& shell, const Job& job) {
     inherited_.clear();
-    auto found = judge(detail::submesh(shell.mesh, [&](std::size_t t) { return t < shell.outer_triangles; }), false, job);
+    auto found =
+        judge(detail::submesh(shell.mesh, [&](std::size_t t) { return t < shell.outer_triangles; }), false, job);
     if (!found) return tl::unexpected(found.error());
     inherited_ = std::move(*found);
     return {};
