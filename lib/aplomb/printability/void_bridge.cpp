@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -116,30 +117,47 @@ double least_distance_mm(double limit_mm, const std::vector<Place>& found) {
   return std::min(limit_mm, worst_mm) / 2;
 }
 
-/// Appends the spans of a slice over the voids of the layer below it, as far as they matter.
-Result<void> append_spans(const Slice& slice, const Polygons& void_below, double overhang_mm, double limit_mm,
-                          double layer_mm, std::vector<Place>& found) {
-  const Polygons above = slice.void_space();
+/// A ceiling still to be measured, and what it cannot be beyond.
+struct Candidate {
+  std::size_t layer = 0;
+  Polygons piece;
+  double most_mm = 0;
+};
+
+/// Appends the ceilings of a layer over the voids of the layer below it.
+Result<void> append_candidates(const Slices& slices, std::size_t layer, double overhang_mm,
+                               std::vector<Candidate>& candidates) {
+  const Slice& slice = slices.layers[layer];
+  const Polygons void_below = slices.layers[layer - 1].void_space();
+  if (void_below.empty()) return {};
   const Result<Core> core = Core{0, void_below}.deeper(overhang_mm);
   if (!core) return tl::unexpected(core.error());
-  Result<Polygons> free = adapters::difference(core->region, above);
+  Result<Polygons> free = adapters::difference(core->region, slice.void_space());
   if (free && area_mm2(*free) > least_area_mm2)  // a ceiling thinner than a layer may leave open air there
     free = adapters::intersection(*free, slice.material());
   if (!free) return tl::unexpected(free.error());
   for (Polygons& piece : pieces(*free)) {
     if (!(area_mm2(piece) > least_area_mm2)) continue;
-    const double least_mm = least_distance_mm(limit_mm, found), most_mm = most_distance_mm(piece, void_below);
-    if (most_mm < least_mm) continue;
-    const Box3 box = detail::box_of(bounding_box(piece), slice.z_mm, layer_mm);
-    Result<Polygons> near = cropped(core->region, bounding_box(piece), most_mm);
-    if (!near) return tl::unexpected(near.error());
-    const Result<std::optional<Place>> place =
-        Span({core->depth_mm, std::move(*near)}, std::move(piece)).farthest(least_mm);
-    if (!place) return tl::unexpected(place.error());
-    if (!*place) continue;
-    found.push_back({(*place)->measured, {(*place)->at_mm.x, (*place)->at_mm.y, slice.z_mm}, box});
+    const double most_mm = most_distance_mm(piece, void_below);
+    candidates.push_back({layer, std::move(piece), most_mm});
   }
   return {};
+}
+
+/// The candidate's span, unless it is below 2 least_mm.
+Result<std::optional<Place>> span_of(const Candidate& candidate, const Slices& slices, double overhang_mm,
+                                     double least_mm) {
+  const Box2 box = bounding_box(candidate.piece);
+  const auto near = cropped(slices.layers[candidate.layer - 1].void_space(), box, candidate.most_mm + overhang_mm);
+  if (!near) return tl::unexpected(near.error());
+  Result<Core> core = Core{0, *near}.deeper(overhang_mm);
+  if (!core) return tl::unexpected(core.error());
+  auto place = Span(std::move(*core), candidate.piece).farthest(least_mm);
+  if (!place || !*place) return place;
+  const double z_mm = slices.layers[candidate.layer].z_mm;
+  (*place)->at_mm.z = z_mm;
+  (*place)->box_mm = detail::box_of(box, z_mm, slices.layer_mm);
+  return place;
 }
 
 }  // namespace
@@ -150,16 +168,23 @@ Result<std::vector<Place>> measure_void_bridge(const PrintedSolid&, const Slices
   if (!limit) return std::vector<Place>{};
   const double slope_deg = std::clamp(detail::mildest_limit(rules, "void.slope").value_or(45), 1.0, 89.0);
   const double overhang_mm = slices.layer_mm / std::tan(slope_deg * std::numbers::pi / 180);
-  std::vector<Place> found;
+  std::vector<Candidate> candidates;
   const std::size_t layers = slices.layers.size();
-  for (std::size_t layer = layers; layer-- > 1;) {  // from above: domes are widest at their top, which spares the rest
+  for (std::size_t layer = layers; layer-- > 1;) {
     if (!job.report(static_cast<double>(layers - layer) / static_cast<double>(layers), "void bridges"))
       return cancelled();
-    const Polygons void_below = slices.layers[layer - 1].void_space();
-    if (void_below.empty()) continue;
-    const Result<void> done =
-        append_spans(slices.layers[layer], void_below, overhang_mm, *limit, slices.layer_mm, found);
+    const Result<void> done = append_candidates(slices, layer, overhang_mm, candidates);
     if (!done) return tl::unexpected(done.error());
+  }
+  std::ranges::stable_sort(candidates, std::ranges::greater{}, &Candidate::most_mm);  // the widest spare the rest
+  std::vector<Place> found;
+  for (const Candidate& candidate : candidates) {
+    if (!job.report(1, "void bridges")) return cancelled();
+    const double least_mm = least_distance_mm(*limit, found);
+    if (candidate.most_mm < least_mm) break;
+    const Result<std::optional<Place>> place = span_of(candidate, slices, overhang_mm, least_mm);
+    if (!place) return tl::unexpected(place.error());
+    if (*place) found.push_back(**place);
   }
   return detail::reported(std::move(found), rules, "void.bridge", slices.layer_mm);
 }
