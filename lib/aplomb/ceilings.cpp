@@ -6,6 +6,7 @@
 
 #include "aplomb/carve/kept_parts.h"
 #include "aplomb/carve/ribs.h"
+#include "aplomb/mesh/detail/topology.h"
 #include "aplomb/printability/detail/places.h"
 #include "aplomb/printability/printed_solid.h"
 #include "aplomb/printability/slices.h"
@@ -17,7 +18,10 @@
 namespace aplomb {
 namespace {
 
-constexpr int most_rounds = 6;
+constexpr int most_rounds = 4;
+constexpr int most_in_vain = 2;         // rounds that leave as many findings as before
+constexpr double rounding = 1e-3;       // of a measure
+constexpr double same_place_mm = 2;     // between what is found in the model as it came and in its shell
 constexpr double thick_ratio = 1.25;    // of a rib to the least wall: what voxels and simplifying may take
 constexpr double slot_ratio = 0.94;     // of a slot to the widest bridge
 constexpr double steeper_deg = 2;       // arches than the limit
@@ -28,19 +32,40 @@ struct Wrong {
   Place place;
 };
 
-/// What the judge finds that shaping can help.
+Box3 grown(Box3 box, double by_mm) {
+  const Vec3 by{by_mm, by_mm, by_mm};
+  return {box.min - by, box.max + by};
+}
+
+bool meet(const Box3& a, const Box3& b) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (a.min[axis] > b.max[axis] || b.min[axis] > a.max[axis]) return false;
+  return true;
+}
+
+/// What the judge finds that shaping can help: not what the model brought along.
 class CeilingJudge {
  public:
   explicit CeilingJudge(const Rules& rules) : rules_(rules) {}
 
+  /// Looks at the model as it came, whose triangles are the shell's first.
+  Result<void> look_at_model(const Shell& shell, const Job& job) {
+    inherited_.clear();
+    auto found =
+        judge(detail::submesh(shell.mesh, [&](std::size_t t) { return t < shell.outer_triangles; }), false, job);
+    if (!found) return tl::unexpected(found.error());
+    inherited_ = std::move(*found);
+    return {};
+  }
+
   /// \param at_once  spans, which cost most, are left out where slopes are wrong already: `all_judged` is false then.
-  Result<std::vector<Wrong>> judge(const Shell& shell, bool at_once, const Job& job) {
+  Result<std::vector<Wrong>> judge(const TriangleMesh& mesh, bool at_once, const Job& job) {
     wrong_.clear();
     all_judged_ = true;
-    if (shell.voids == 0) return wrong_;
-    const auto solid = check_solid(shell.mesh, job.part(0, 0.2));
+    const auto solid = check_solid(mesh, job.part(0, 0.2));
     if (!solid) return tl::unexpected(solid.error());
     if (!solid->solid) return fail(ErrorCode::internal, "the shell is no solid: " + describe(solid->defects));
+    if (solid->solid->voids() == 0) return wrong_;
     const PrintedSolid printed = printed_solid(*solid->solid);
     const auto slices = cut_slices(printed, rules_.layer_mm, job.part(0.2, 0.4));
     if (!slices) return tl::unexpected(slices.error());
@@ -69,25 +94,24 @@ class CeilingJudge {
     if (!places) return tl::unexpected(places.error());
     const bool is_least = std::ranges::find(check_rules(), id, &CheckRule::id)->is_least;
     for (const Place& place : *places)
-      if (is_least ? place.measured < *limit : place.measured > *limit) wrong_.push_back({id, place});
+      if ((is_least ? place.measured < *limit : place.measured > *limit) && !is_inherited(id, place, is_least))
+        wrong_.push_back({id, place});
     return {};
   }
 
+  /// Whether the model as it came has as bad a place there.
+  bool is_inherited(std::string_view id, const Place& place, bool is_least) const {
+    return std::ranges::any_of(inherited_, [&](const Wrong& before) {
+      const double worse = is_least ? before.place.measured - place.measured : place.measured - before.place.measured;
+      return before.id == id && worse <= rounding * std::abs(place.measured) &&
+             meet(grown(before.place.box_mm, same_place_mm), place.box_mm);
+    });
+  }
+
   const Rules& rules_;
-  std::vector<Wrong> wrong_;
+  std::vector<Wrong> wrong_, inherited_;
   bool all_judged_ = true;
 };
-
-Box3 grown(Box3 box, double by_mm) {
-  const Vec3 by{by_mm, by_mm, by_mm};
-  return {box.min - by, box.max + by};
-}
-
-bool meet(const Box3& a, const Box3& b) {
-  for (int axis = 0; axis < 3; ++axis)
-    if (a.min[axis] > b.max[axis] || b.min[axis] > a.max[axis]) return false;
-  return true;
-}
 
 /// What is kept, round by round.
 class Shaper {
@@ -174,17 +198,24 @@ Result<Attempt> with_printable_ceilings(const Attempt& as_carved, const Rules& r
   Attempt now = as_carved;
   std::optional<Attempt> best;
   bool best_is_sure = false;
+  int in_vain = 0;
+  if (const auto looked = judge.look_at_model(*now.shell, job.part(0, 0.1)); !looked)
+    return tl::unexpected(looked.error());
   for (int round = 0;; ++round) {
-    const Job part = job.part(double(round) / (most_rounds + 1), (round + 1.0) / (most_rounds + 1));
-    const auto wrong = judge.judge(*now.shell, round < most_rounds, part.part(0, 0.4));
+    const Job part =
+        job.part(0.1 + 0.9 * round / (most_rounds + 1), std::min(1.0, 0.1 + 0.9 * (round + 1) / (most_rounds + 1)));
+    const bool is_last = round == most_rounds || in_vain == most_in_vain;
+    const auto wrong = judge.judge(now.shell->mesh, !is_last, part.part(0, 0.4));
     if (!wrong) return tl::unexpected(wrong.error());
     figures.left = wrong->size();
     compare(figures, now, as_carved);
     now.ceiling = figures;
     const bool is_sure = judge.all_judged();
-    if (!best || is_sure > best_is_sure || (is_sure == best_is_sure && figures.left < best->ceiling->left))
-      best = now, best_is_sure = is_sure;
-    if (wrong->empty() || round == most_rounds || !shaper.answer(*wrong, now, round, figures)) break;
+    const bool is_better =
+        !best || is_sure > best_is_sure || (is_sure == best_is_sure && figures.left < best->ceiling->left);
+    if (is_better) best = now, best_is_sure = is_sure;
+    in_vain = is_better ? 0 : in_vain + 1;
+    if (wrong->empty() || is_last || !shaper.answer(*wrong, now, round, figures)) break;
     ++figures.rounds;
     auto again = carve_again(without(*as_carved.volume, shaper.kept()), part.part(0.4, 1));
     if (!again) return tl::unexpected(again.error());

@@ -8,6 +8,8 @@
 
 #include "aplomb/carve/kept_parts.h"
 #include "aplomb/pipeline.h"
+#include "aplomb/printability/printed_solid.h"
+#include "aplomb/printability/walls.h"
 #include "support/shapes.h"
 #include "support/solids.h"
 
@@ -150,24 +152,75 @@ TEST(Ceilings, that_take_what_balance_needs_are_named_in_a_hint) {
                                   [](const std::string& hint) { return hint.find("--ceiling any") != hint.npos; }));
 }
 
-TEST(Ceilings, are_shaped_under_a_stalactite) {  // a pin that hangs from the roof of a void that the solid brings along
+/// A bar 12 mm wide and 50 high whose void has a part that is kept, as carved and shaped.
+struct Kept {
+  Attempt as_carved, shaped;
+};
+
+Kept bar_with(const KeptPart& part) {
   const TriangleMesh bar = test::box({-6, -6, 0}, {6, 6, 50});
   const SolidMesh solid = test::solid_of(bar);
-  const SolidVolume volume = voxelize(solid, {.wall_mm = 2, .voxel_mm = 0.5}).value();
-  const KeptPart pin = kept_box({{-1.5, -1.5, 30}, {1.5, 1.5, 49}});
-  const SolidVolume hung = without(volume, {pin});
+  const SolidVolume volume = without(voxelize(solid, {.wall_mm = 2, .voxel_mm = 0.5}).value(), {part});
   const JointProblem joint = joint_problem(bar, std::vector{Pose{}}, RowKind::nominal).value();
   const CarveAgain carve_again = [&](const SolidVolume& allowed, const Job&) -> Result<Attempt> {
     Carving carving = carve(allowed, solid.moments(), joint.problem, {.aim = CarveAim::stable}).value();
     Shell shell = build_shell(solid, carving.field, {.wall_mm = 2}).value();
-    return Attempt{joint, std::move(carving), std::move(shell)};
+    return Attempt{joint, std::move(carving), std::move(shell), volume};
   };
-  Attempt as_carved = carve_again(hung, {}).value();
-  as_carved.volume = hung;
-  const Attempt shaped = with_printable_ceilings(as_carved, Rules(Process::fdm), carve_again).value();
+  Attempt as_carved = carve_again(volume, {}).value();
+  Attempt shaped = with_printable_ceilings(as_carved, Rules(Process::fdm), carve_again).value();
+  return {std::move(as_carved), std::move(shaped)};
+}
+
+double least_wall_between_voids_mm(const Attempt& attempt) {
+  const SolidMesh shell = test::solid_of(attempt.shell->mesh);
+  return wall_void_void(printed_solid(shell), Rules(Process::fdm)).value().at(0).measured;
+}
+
+TEST(Ceilings, are_shaped_under_a_stalactite) {  // a pin that hangs from the roof of a void
+  const auto [as_carved, shaped] = bar_with(kept_box({{-1.5, -1.5, 30}, {1.5, 1.5, 49}}));
   EXPECT_GT(shaped.ceiling->pillars, 0u);
   EXPECT_EQ(shaped.ceiling->left, 0u);
   EXPECT_GT(shaped.carving.body.volume_mm3, as_carved.carving.body.volume_mm3 + 9 * 10);
+}
+
+TEST(Ceilings, come_with_walls_between_voids_that_are_thick_enough) {
+  const auto [as_carved, shaped] = bar_with(kept_box({{-0.25, -6, 0}, {0.25, 6, 50}}));
+  EXPECT_NEAR(least_wall_between_voids_mm(as_carved), 0.5, 0.05);
+  EXPECT_GT(shaped.ceiling->fills, 0u);
+  EXPECT_EQ(shaped.ceiling->left, 0u);
+  EXPECT_GE(least_wall_between_voids_mm(shaped), 0.8);
+}
+
+TEST(Ceilings, fill_up_where_the_voids_of_a_dumbbell_nearly_meet) {  // two tips, 0.5 mm apart at one place
+  KeptPart waist{{{-6, -6, 0}, {6, 6, 50}},
+                 [](Vec3 p) { return 0.25 + 0.5 * std::hypot(p.x, p.y) - std::abs(p.z - 40); }};
+  const auto [as_carved, shaped] = bar_with(waist);
+  EXPECT_LT(least_wall_between_voids_mm(as_carved), 0.7);
+  EXPECT_GT(shaped.ceiling->fills, 0u);
+  EXPECT_EQ(shaped.ceiling->left, 0u);
+  EXPECT_TRUE(shaped.shell->voids < 2 || least_wall_between_voids_mm(shaped) >= 0.8);
+}
+
+TEST(Ceilings, leave_alone_what_is_wrong_with_voids_that_the_model_brought) {
+  TriangleMesh block = test::box({0, 0, 0}, {60, 60, 60});
+  for (const double x : {20.0, 29.5}) block = joined(block, reversed(test::box({x, 25, 25}, {x + 9, 35, 35})));
+  const Attempt given = [&] {
+    const SolidMesh solid = test::solid_of(block);
+    const SolidVolume volume = voxelize(solid, {.wall_mm = 2, .voxel_mm = 1}).value();
+    const JointProblem joint = joint_problem(block, std::vector{Pose{}}, RowKind::nominal).value();
+    Carving carving = carve(volume, solid.moments(), joint.problem, {.aim = CarveAim::stable}).value();
+    Shell shell = build_shell(solid, VoidField{}, {.wall_mm = 2}).value();
+    return Attempt{joint, std::move(carving), std::move(shell), volume};
+  }();
+  ASSERT_NEAR(least_wall_between_voids_mm(given), 0.5, 1e-3);
+  const CarveAgain never = [](const SolidVolume&, const Job&) -> Result<Attempt> {
+    return fail(ErrorCode::internal, "carved again");
+  };
+  const auto shaped = with_printable_ceilings(given, Rules(Process::fdm), never);
+  ASSERT_TRUE(shaped.has_value()) << shaped.error().message;
+  EXPECT_EQ(shaped->ceiling->left, 0u);
+  EXPECT_EQ(shaped->shell->mesh, given.shell->mesh);
 }
 
 TEST(Ceilings, are_cancelled_at_every_report) {

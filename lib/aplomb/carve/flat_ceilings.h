@@ -21,7 +21,8 @@ struct FlatCeiling {
     return top_mm[static_cast<std::size_t>(cell)] > -std::numeric_limits<double>::infinity();
   }
   Vec2 middle_mm(int cell) const {
-    return {origin_mm.x + cell_mm * (cell % columns), origin_mm.y + cell_mm * (cell / columns)};
+    const int column = cell % columns, row = cell / columns;
+    return {origin_mm.x + cell_mm * column, origin_mm.y + cell_mm * row};
   }
 };
 

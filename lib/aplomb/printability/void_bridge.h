@@ -27,9 +27,8 @@ namespace aplomb {
 /// one layer sees of it: the top of a ball of radius R spans up to 2 sqrt(2 R layer).
 ///
 /// \return Places where the process has the check; none where no ceiling is unsupported. third_party, cancelled.
-/// \par Cost  Three set operations on the voids' loops a layer, and about 20 more for each piece that exceeds the limit
-/// or
-///            all pieces above it.
+/// \par Cost  Three set operations on the voids' loops a layer, a distance for each corner of a piece, and about 20 set
+///            operations for each piece that may exceed the limit, or the widest.
 Result<std::vector<Place>> measure_void_bridge(const PrintedSolid& printed, const Slices& slices, const Rules& rules,
                                                const Job& job = {});
 
