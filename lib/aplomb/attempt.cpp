@@ -14,7 +14,8 @@ namespace {
 constexpr double aimed_beyond_rad = 0.004 * std::numbers::pi / 180;  // what simplifying the shell may cost
 constexpr int most_carvings = 3;
 constexpr double bent_beyond_rad =
-    0.03 * std::numbers::pi / 180;  // beyond what a bend came short of: carving keeps more
+    0.03 * std::numbers::pi / 180;          // beyond what a bend came short of: carving keeps more
+constexpr double bent_beyond_ratio = 1.15;  // and what ribs under the ceilings of a larger void cost
 constexpr int most_bends = 3;
 constexpr int most_reshapings = most_bends + 1;  // the first may be a cut alone
 
@@ -148,7 +149,7 @@ Result<ReshapedAttempt> attempt_reshaping(const Input& input, const StandOptions
     const bool at_limit = made.figures.outcome == "limit" || made.figures.outcome == "stuck";
     if (reshaping->bent) ++bends;
     if (short_t <= 0 || at_limit || bends == most_bends) return made;
-    beyond_t += short_t + std::tan(bent_beyond_rad);
+    beyond_t += bent_beyond_ratio * short_t + std::tan(bent_beyond_rad);
   }
 }
 

@@ -97,7 +97,8 @@ class ChamberLattice {
     return {at / (counts_[1] * counts_[2]), at / counts_[2] % counts_[1], at % counts_[2]};
   }
   std::size_t number(const std::array<int, 3>& i) const {
-    return static_cast<std::size_t>((i[0] * counts_[1] + i[1]) * counts_[2] + i[2]);
+    const int at = (i[0] * counts_[1] + i[1]) * counts_[2] + i[2];
+    return static_cast<std::size_t>(at);
   }
   bool is_on(const std::array<int, 3>& index) const {
     for (std::size_t axis = 0; axis < 3; ++axis)

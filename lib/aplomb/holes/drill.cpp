@@ -45,7 +45,7 @@ struct HashOfPoint {
 
 /// With its least vertex first, as wound.
 Triangle turned(Triangle t) {
-  std::ranges::rotate(t, std::ranges::min_element(t));
+  std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
   return t;
 }
 

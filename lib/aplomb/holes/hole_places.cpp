@@ -40,8 +40,8 @@ class VoidHoles {
   Result<void> choose(std::vector<DeadEnd>& dead_ends, const Job& job) {
     const std::size_t dead_before = dead_ends.size();
     if (demand_.drains) {
-      if (const auto drained = drain(dead_ends, job); !drained) return drained;
-    } else if (const auto spread = spread_out(job); !spread) {
+      if (auto drained = drain(dead_ends, job); !drained) return drained;
+    } else if (auto spread = spread_out(job); !spread) {
       return spread;
     }
     const bool is_short = taken_.size() - first_own_ < static_cast<std::size_t>(demand_.holes);
@@ -109,7 +109,7 @@ class VoidHoles {
   Result<void> drain(std::vector<DeadEnd>& dead_ends, const Job& job) {
     const Dips dips = detail::dips_of(surface_, 0.8 * demand_.cup_mm);
     for (std::uint32_t d = 0; d < dips.dips.size(); ++d)
-      if (const auto done = drain_dip(dips, d, dead_ends, job); !done) return done;
+      if (auto done = drain_dip(dips, d, dead_ends, job); !done) return done;
     while (taken_.size() - first_own_ < static_cast<std::size_t>(std::max(demand_.holes, 2))) {
       const auto vent = highest(job);
       if (!vent) return tl::unexpected(vent.error());
