@@ -58,6 +58,7 @@ Result<Attempt> with_printable_voids(Attempt made, const Input& input, const Sta
                                      const Job& job) {
   if (shapes_ceilings(options)) {
     const CarveAgain carve_again = [&](const SolidVolume& allowed, const Job& part) {
+      clock.lap("ceilings");
       return carve_shell(allowed, input, made.joint, options, {{}, aimed_beyond_rad, true}, clock, part);
     };
     auto shaped = with_printable_ceilings(made, options.judge.rules, carve_again, job.part(0, 0.5));

@@ -1,9 +1,29 @@
 #include "aplomb/core/polygon.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+#include <utility>
 
 namespace aplomb {
+namespace {
+
+/// Cohen and Sutherland's: on which outer sides of the box a point lies.
+unsigned outcode(const Box2& box, Vec2 p) {
+  return unsigned{p.x < box.min.x} | unsigned{p.x > box.max.x} << 1 | unsigned{p.y < box.min.y} << 2 |
+         unsigned{p.y > box.max.y} << 3;
+}
+
+double squared_distance_mm2(Vec2 point, const Segment& segment) {
+  const Vec2 along = segment.to - segment.from, to_point = point - segment.from;
+  const double squared = dot(along, along);
+  const double share = squared > 0 ? std::clamp(dot(to_point, along) / squared, 0.0, 1.0) : 0;
+  const Vec2 off = to_point - share * along;
+  return dot(off, off);
+}
+
+}  // namespace
 
 PlaneMoments PlaneMoments::about_centroid() const {
   const Vec2 c = centroid_mm();
@@ -59,6 +79,32 @@ Box2 bounding_box(const Polygons& polygons) {
   for (const Polygon& polygon : polygons)
     for (const Vec2& point : polygon) box.add(point);
   return box;
+}
+
+Polygons thinned_outside(const Polygons& polygons, const Box2& box) {
+  Polygons kept;
+  for (const Polygon& loop : polygons) {
+    Polygon thin;
+    unsigned side = 0;        // outer sides that the run has in common; none within the box
+    bool has_middle = false;  // whether the last corner is one that the run may lose again
+    for (const Vec2& p : loop) {
+      const unsigned code = outcode(box, p), common = side & code;
+      if (common && has_middle) thin.back() = p;
+      else thin.push_back(p);
+      has_middle = common != 0;
+      side = common ? common : code;
+    }
+    if (thin.size() > 2) kept.push_back(std::move(thin));
+  }
+  return kept;
+}
+
+double distance_mm(Vec2 point, const Segment& segment) { return std::sqrt(squared_distance_mm2(point, segment)); }
+
+double distance_mm(Vec2 point, const std::vector<Segment>& segments) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Segment& segment : segments) least = std::min(least, squared_distance_mm2(point, segment));
+  return std::sqrt(least);
 }
 
 bool encloses(const Polygon& polygon, Vec2 p) {

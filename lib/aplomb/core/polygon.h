@@ -50,6 +50,18 @@ double area_mm2(const Polygons& polygons);
 Box2 bounding_box(const Polygon& polygon);
 Box2 bounding_box(const Polygons& polygons);
 
+/// The same region within the box, with fewer corners beyond it: a run of them on one side of the box keeps its ends,
+/// so that the path between them stays on that side and no winding number in the box changes. Beyond it loops may
+/// cross.
+Polygons thinned_outside(const Polygons& polygons, const Box2& box);
+
+struct Segment {
+  Vec2 from, to;
+};
+double distance_mm(Vec2 point, const Segment& segment);
+/// To the nearest; infinite where there is none.
+double distance_mm(Vec2 point, const std::vector<Segment>& segments);
+
 /// Whether a loop of either direction runs round the point; on the loop itself either answer.
 bool encloses(const Polygon& polygon, Vec2 point_mm);
 

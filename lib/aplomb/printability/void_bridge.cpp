@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -18,29 +17,28 @@ constexpr double longest_step_mm = 0.5, tolerance_mm = 2e-4;
 constexpr double precision_mm = 2.5e-4;  // of a distance; a span is two
 constexpr double least_area_mm2 = 1e-8;  // less is rounding
 
-double distance_mm(Vec2 p, const Polygons& rim) {
-  double least = std::numeric_limits<double>::infinity();  // squared
+/// The sides of a region that may be the nearest to a point of the box.
+std::vector<Segment> sides_near(const Box2& box, const Polygons& rim) {
+  const Vec2 middle = 0.5 * (box.min + box.max);
+  std::vector<Segment> sides;
   for (const Polygon& loop : rim)
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-      const Vec2 a = loop[i == 0 ? loop.size() - 1 : i - 1], b = loop[i];
-      const double ux = b.x - a.x, uy = b.y - a.y, px = p.x - a.x, py = p.y - a.y, uu = ux * ux + uy * uy;
-      const double share = uu > 0 ? std::clamp((px * ux + py * uy) / uu, 0.0, 1.0) : 0;
-      const double x = px - share * ux, y = py - share * uy;
-      least = std::min(least, x * x + y * y);
-    }
-  return std::sqrt(least);
+    for (std::size_t i = 0; i < loop.size(); ++i) sides.push_back({loop[i == 0 ? loop.size() - 1 : i - 1], loop[i]});
+  const double reach_mm = distance_mm(middle, sides) + norm(box.max - box.min);
+  std::erase_if(sides, [&](const Segment& side) { return distance_mm(middle, side) > reach_mm; });
+  return sides;
 }
 
 /// No point of the piece is farther from the rim of a region that holds it. Distances grow no faster than one walks:
 /// along an edge up to the mean of what they are at its ends and its length, inward by the piece's inradius.
 double most_distance_mm(const Polygons& piece, const Polygons& rim) {
   double most = 0;
+  const std::vector<Segment> sides = sides_near(bounding_box(piece), rim);
   for (const Polygon& loop : piece) {
-    double before = distance_mm(loop.back(), rim);
+    double before = distance_mm(loop.back(), sides);
     Vec2 from = loop.back();
     for (const Vec2 to : loop) {
-      const double here = distance_mm(to, rim);
-      most = std::max(most, (before + here + std::hypot(to.x - from.x, to.y - from.y)) / 2);
+      const double here = distance_mm(to, sides);
+      most = std::max(most, (before + here + norm(to - from)) / 2);
       before = here, from = to;
     }
   }

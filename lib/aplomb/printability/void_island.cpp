@@ -53,7 +53,8 @@ Result<std::vector<Place>> measure_void_island(const PrintedSolid&, const Slices
                                                const Job& job) {
   std::vector<Place> found;
   if (!detail::mildest_limit(rules, "void.island")) return found;
-  const double least_share = rules.process() == Process::sla ? least_held_share : held_by_rounding;
+  const bool is_any_hold_enough = rules.process() != Process::sla;
+  const double least_share = is_any_hold_enough ? held_by_rounding : least_held_share;
   const Result<std::vector<detail::Links>> links = detail::all_links(slices, job);
   if (!links) return tl::unexpected(links.error());
   const detail::Growth growth = detail::grow(slices, *links);
@@ -65,8 +66,10 @@ Result<std::vector<Place>> measure_void_island(const PrintedSolid&, const Slices
     if (slice.parts.size() < 2) continue;  // what surrounds the void is one
     const Polygons void_space = lower.void_space();
     if (void_space.empty()) continue;
-    for (std::size_t i = 0; i < slice.parts.size(); ++i) {
+    for (std::uint32_t i = 0; i < slice.parts.size(); ++i) {
       const SlicePart& part = slice.parts[i];
+      if (is_any_hold_enough && std::ranges::find(links->at(layer), i, &detail::Link::first) != links->at(layer).end())
+        continue;
       const Result<bool> starts = is_island(slice, part, lower, void_space, least_share);
       if (!starts) return tl::unexpected(starts.error());
       const double area_mm2 = *starts ? grown_mm2(slices, growth, layer, i) : 0;

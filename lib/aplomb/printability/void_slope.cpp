@@ -1,11 +1,11 @@
 #include "aplomb/printability/void_slope.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
 
-#include "aplomb/adapters/clipper/polygon_operations.h"
 #include "aplomb/mesh/detail/corner_table.h"
 #include "aplomb/printability/detail/places.h"
 
@@ -13,8 +13,7 @@ namespace aplomb {
 namespace {
 
 constexpr double least_patch_mm2 = 1;
-constexpr double rounding_mm2 = 1e-6;
-constexpr double arc_mm = 0.005;  // how exactly a reach is drawn
+constexpr double resolution_mm = 0.005;  // of a reach
 
 Vec2 flat(Vec3 p) { return {p.x, p.y}; }
 
@@ -24,6 +23,59 @@ struct Facet {
 };
 
 using Facets = std::vector<std::uint32_t>;
+
+/// A triangle seen from above.
+struct FlatTriangle {
+  std::array<Vec2, 3> corners;
+
+  double longest_mm() const {
+    return std::max({norm(corners[1] - corners[0]), norm(corners[2] - corners[1]), norm(corners[0] - corners[2])});
+  }
+  Vec2 middle() const { return (1.0 / 3) * (corners[0] + corners[1] + corners[2]); }
+};
+
+/// Tells of triangle after triangle whether all of it is within reach of some segments, but for resolution_mm.
+class Reach {
+ public:
+  /// \pre There is a segment.
+  Reach(std::vector<Segment> segments, double reach_mm) : segments_(std::move(segments)), reach_mm_(reach_mm) {}
+
+  bool holds(const FlatTriangle& triangle) {
+    if (is_near(triangle, nearest_)) return true;  // neighbours mostly have one nearest segment
+    const Vec2 middle = triangle.middle();
+    nearest_ = *std::ranges::min_element(segments_, {}, [&](const Segment& s) { return distance_mm(middle, s); });
+    return is_near(triangle, nearest_) || is_near(triangle, segments_);
+  }
+
+ private:
+  static double farthest_mm(const FlatTriangle& triangle, const auto& from) {
+    double most = 0;
+    for (const Vec2& corner : triangle.corners) most = std::max(most, distance_mm(corner, from));
+    return most;
+  }
+
+  /// The distance from one segment is convex.
+  bool is_near(const FlatTriangle& triangle, const Segment& segment) const {
+    return farthest_mm(triangle, segment) <= reach_mm_;
+  }
+
+  /// Distances grow no faster than one walks, and no point is farther from its nearest corner than the longest side /
+  /// sqrt 3. Where that does not settle it, the triangle is quartered.
+  bool is_near(const FlatTriangle& triangle, std::vector<Segment> segments) const {
+    const double far_mm = farthest_mm(triangle, segments), longest_mm = triangle.longest_mm();
+    if (far_mm > reach_mm_) return false;
+    if (longest_mm < resolution_mm || far_mm + longest_mm / std::numbers::sqrt3 <= reach_mm_) return true;
+    const auto& [a, b, c] = triangle.corners;
+    std::erase_if(segments, [&, from = a](const Segment& s) { return distance_mm(from, s) > reach_mm_ + longest_mm; });
+    const Vec2 ab = 0.5 * (a + b), bc = 0.5 * (b + c), ca = 0.5 * (c + a);
+    return is_near({{a, ab, ca}}, segments) && is_near({{ab, b, bc}}, segments) && is_near({{ca, bc, c}}, segments) &&
+           is_near({{ab, bc, ca}}, segments);
+  }
+
+  std::vector<Segment> segments_;
+  double reach_mm_;
+  Segment nearest_ = segments_.front();
+};
 
 /// The surface of one void.
 class Ceiling {
@@ -62,14 +114,14 @@ class Ceiling {
   }
 
   /// Whether every point of the patch, seen from above, is within reach_mm of where it rests.
-  Result<bool> is_held(const Facets& patch, double reach_mm) const {
-    const Plan plan = plan_of(patch);
-    if (plan.rests.empty()) return false;
-    const Result<Polygons> near = adapters::around(plan.rests, reach_mm, arc_mm);
-    if (!near) return tl::unexpected(near.error());
-    const Result<Polygons> far = adapters::difference(plan.region, *near);
-    if (!far) return tl::unexpected(far.error());
-    return aplomb::area_mm2(*far) <= rounding_mm2;
+  bool is_held(const Facets& patch, double reach_mm) const {
+    std::vector<Segment> rests = rests_of(patch);
+    if (rests.empty()) return false;
+    Reach reach(std::move(rests), reach_mm);
+    return std::ranges::all_of(patch, [&](std::uint32_t t) {
+      const Triangle& facet = surface_.triangles[t];
+      return reach.holds({{flat(at(facet[0])), flat(at(facet[1])), flat(at(facet[2]))}});
+    });
   }
 
   /// The slope that least_patch_mm2 of the facets is flatter than. \pre They have that area.
@@ -91,34 +143,14 @@ class Ceiling {
   }
 
  private:
-  struct Plan {
-    Polygons region;
-    std::vector<adapters::Line> rests;
-  };
-
-  /// The patch seen from above, by its rim, and the parts of it where it rests.
-  Plan plan_of(const Facets& patch) const {
-    std::multimap<std::uint32_t, detail::Corner> rim;  // by the vertex that a half-edge of the patch leaves
+  /// The parts of the patch's rim, seen from above, where it rests.
+  std::vector<Segment> rests_of(const Facets& patch) const {
+    std::vector<Segment> rests;
     for (const std::uint32_t t : patch)
       for (detail::Corner c = 3 * t; c < 3 * t + 3; ++c)
-        if (!std::ranges::binary_search(patch, corners_.twin(c) / 3)) rim.emplace(corners_.vertex(c), c);
-    Plan plan;
-    while (!rim.empty()) {
-      Polygon& loop = plan.region.emplace_back();
-      bool rested = false;
-      for (auto edge = rim.begin(); edge != rim.end();) {
-        const detail::Corner c = edge->second;
-        rim.erase(edge);
-        const bool rests = rests_at(c);
-        loop.push_back(flat(at(corners_.vertex(c))));
-        if (rests && !rested) plan.rests.push_back({loop.back()});
-        if (rests) plan.rests.back().push_back(flat(at(corners_.head(c))));
-        rested = rests;
-        edge = rim.find(corners_.head(c));
-      }
-      std::ranges::reverse(loop);  // the patch faces down
-    }
-    return plan;
+        if (!std::ranges::binary_search(patch, corners_.twin(c) / 3) && rests_at(c))
+          rests.push_back({flat(at(corners_.vertex(c))), flat(at(corners_.head(c)))});
+    return rests;
   }
 
   /// Whether the surface beyond the half-edge bends down into the void, so that there is material under the edge.
@@ -137,15 +169,13 @@ class Ceiling {
 };
 
 /// Appends what is too flat and no bridge; gives what is neither too flat nor part of a patch left out.
-Result<Facets> append_flat_patches(const Ceiling& ceiling, double limit_deg, std::optional<double> span_mm,
-                                   std::vector<Place>& found) {
+Facets append_flat_patches(const Ceiling& ceiling, double limit_deg, std::optional<double> span_mm,
+                           std::vector<Place>& found) {
   std::vector<bool> left_out(ceiling.size(), false);
   for (const Facets& patch : ceiling.patches(limit_deg)) {
     for (const std::uint32_t t : patch) left_out[t] = true;
     if (ceiling.area_mm2(patch) < least_patch_mm2) continue;
-    const Result<bool> held = span_mm ? ceiling.is_held(patch, *span_mm / 2) : false;
-    if (!held) return tl::unexpected(held.error());
-    if (!*held) found.push_back(ceiling.flattest(patch));
+    if (!span_mm || !ceiling.is_held(patch, *span_mm / 2)) found.push_back(ceiling.flattest(patch));
   }
   Facets steep;
   for (std::uint32_t t = 0; t < ceiling.size(); ++t)
@@ -165,9 +195,8 @@ Result<std::vector<Place>> measure_void_slope(const PrintedSolid& printed, const
     if (!job.report(static_cast<double>(i) / static_cast<double>(printed.voids.size()), "void slopes"))
       return cancelled();
     const Ceiling ceiling(printed.voids[i]);
-    const Result<Facets> steep = append_flat_patches(ceiling, *limit, span_mm, found);
-    if (!steep) return tl::unexpected(steep.error());
-    if (ceiling.area_mm2(*steep) >= least_patch_mm2) found.push_back(ceiling.flattest(*steep));
+    const Facets steep = append_flat_patches(ceiling, *limit, span_mm, found);
+    if (ceiling.area_mm2(steep) >= least_patch_mm2) found.push_back(ceiling.flattest(steep));
   }
   return detail::reported(std::move(found), rules, "void.slope", slices.layer_mm);
 }

@@ -57,6 +57,15 @@ Result<Polygons> combined(cl::ClipType type, const Polygons& a, const Polygons& 
   });
 }
 
+/// What of a region matters near another: Clipper's time grows faster than the number of corners.
+Polygons near(const Polygons& polygons, const Polygons& other) {
+  const Box2 box = bounding_box(other);
+  Polygons meeting;
+  for (const Polygon& loop : polygons)
+    if (bounding_box(loop).meets(box)) meeting.push_back(loop);
+  return thinned_outside(meeting, box);
+}
+
 Result<Polygons> offset(const cl::Paths& from, cl::EndType ends, double by_mm, double tolerance_mm) {
   return guarded([&](cl::Paths& paths) {
     cl::ClipperOffset offset(2, tolerance_mm * units_per_mm);
@@ -71,13 +80,14 @@ Result<Polygons> offset(const cl::Paths& from, cl::EndType ends, double by_mm, d
 }  // namespace
 
 Result<Polygons> intersection(const Polygons& a, const Polygons& b) {
-  if (a.empty() || b.empty()) return Polygons{};
-  return combined(cl::ctIntersection, a, b);
+  const Polygons a_near = near(a, b), b_near = near(b, a_near);
+  if (a_near.empty() || b_near.empty()) return Polygons{};
+  return combined(cl::ctIntersection, a_near, b_near);
 }
 
 Result<Polygons> difference(const Polygons& a, const Polygons& b) {
   if (a.empty()) return Polygons{};
-  return combined(cl::ctDifference, a, b);
+  return combined(cl::ctDifference, a, near(b, a));
 }
 
 Result<Polygons> grown(const Polygons& polygons, double by_mm, double tolerance_mm) {

@@ -13,8 +13,9 @@
 
 namespace aplomb::detail {
 
-/// Which parts of a layer rest on which of the layer below: a part of the upper one, a part of the lower one.
-using Links = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+/// A part of a layer that rests on a part of the layer below.
+using Link = std::pair<std::uint32_t, std::uint32_t>;
+using Links = std::vector<Link>;
 
 /// Parts overlap when they share more than 1e-6 mm2. \return third_party.
 Result<Links> links_between(const Slice& upper, const Slice& lower);
