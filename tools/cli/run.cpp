@@ -33,12 +33,13 @@ int report_error(const Error& error) {
   return exit_code(ending_of(error));
 }
 
-/// A line that is written over, on a terminal; nothing elsewhere. Its end also wipes it.
+/// A line that is written over, on a terminal, and wiped at the end; or a line of JSON each time, for programs.
 class ProgressLine {
  public:
-  explicit ProgressLine(bool shown) : shown_(shown && isatty(STDERR_FILENO) == 1) {}
+  ProgressLine(bool shown, bool is_json)
+      : is_json_(is_json), shown_(is_json || (shown && isatty(STDERR_FILENO) == 1)) {}
   ~ProgressLine() {
-    if (shown_) fmt::print(stderr, "\r\033[K");
+    if (shown_ && !is_json_) fmt::print(stderr, "\r\033[K");
   }
   Job job() {
     return Job([this](double fraction, std::string_view stage) {
@@ -52,9 +53,11 @@ class ProgressLine {
     const auto now = std::chrono::steady_clock::now();
     if (!shown_ || now - last_ < std::chrono::milliseconds(50)) return;
     last_ = now;
-    fmt::print(stderr, "\r\033[K{:3.0f} % {}", 100 * fraction, stage);
+    if (is_json_) fmt::print(stderr, "{{\"progress\": {:.3f}, \"stage\": \"{}\"}}\n", fraction, stage);
+    else fmt::print(stderr, "\r\033[K{:3.0f} % {}", 100 * fraction, stage);
   }
 
+  bool is_json_;
   bool shown_;
   std::chrono::steady_clock::time_point last_{};
 };
@@ -251,7 +254,7 @@ int run(const Arguments& a) {
       if (const auto format = format_of(file); !format) return report_error(format.error());
   if (const auto saved = save_job(a); !saved) return report_error(saved.error());
   const ThreadLimit limit(asked.threads);
-  ProgressLine progress(!a.quiet);
+  ProgressLine progress(!a.quiet, a.is_progress_json);
   const Job job = progress.job();
   if (a.command == Command::validate) return run_validate(a, job);
   const auto input = load_solid(asked.model, asked.input, job.part(0, 0.3), dump_into(asked.dump));
