@@ -172,15 +172,15 @@ class Verdicts(unittest.TestCase):
         told = verdict.of_check("trex", code, report, said)
         self.assertEqual(told.level, verdict.WARNING)
         self.assertIn("falls over", told.text)
-        self.assertIn("{:.1f}\u00b0".format(report["before"]["tip_deg"]), told.text)
+        self.assertIn("{:.1f}\u00b0".format(report["before"]["tip_deg"]).replace("-", "\u2212"), told.text)
         self.assertIn("{:.1f} g".format(report["before"]["mass_g"]), told.text)
 
     def test_what_makes_it_stand_is_said_with_before_and_after(self):
         code, report, said = self.report_of("stand", str(FIXTURES / "trex.stl"))
         told = verdict.of_stand("trex", code, report, said, True)
         self.assertEqual(told.level, verdict.GOOD)
-        for number in ("{:.1f}\u00b0".format(report["after"]["tip_deg"]), "{:.1f}\u00b0 before".format(report["before"]["tip_deg"]),
-                       "{:.1f} cm\u00b3".format(report["carving"]["void_mm3"] / 1000), "{:.2f} mm".format(report["wall"]["measured_mm"])):
+        for number in ("{:.1f}\u00b0".format(report["after"]["tip_deg"]), "\u2212{:.1f}\u00b0 before".format(-report["before"]["tip_deg"]),
+                       "{:.1f} cm\u00b3".format(report["carving"]["void_mm3"] / 1000), "{:.2f} mm".format(report["wall_mm"]["measured"])):
             self.assertIn(number, told.text)
 
     def test_what_cannot_stand_or_would_not_print_is_left_and_said_why(self):

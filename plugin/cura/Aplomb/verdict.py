@@ -15,7 +15,7 @@ PLAINLY = {
 
 
 def _degrees(value):
-    return "{:.1f}\u00b0".format(value + 0.0 if abs(value) >= 0.05 else 0.0)
+    return "{:.1f}\u00b0".format(value if abs(value) >= 0.05 else 0.0).replace("-", "\u2212")
 
 
 def _sentence(said):
@@ -44,11 +44,11 @@ def mass_line(report):
 
 def work_line(report):
     parts = []
-    carving, wall, deformation = report.get("carving"), report.get("wall"), report.get("deformation")
+    carving, wall, deformation = report.get("carving"), report.get("wall_mm"), report.get("deformation")
     if carving:
         parts.append("void {:.1f} cm\u00b3".format(carving["void_mm3"] / 1000))
     if wall:
-        parts.append("wall {:.2f} mm".format(wall["measured_mm"]))
+        parts.append("wall {:.2f} mm".format(wall["measured"]))
     if deformation and deformation.get("trim_mm"):
         parts.append("{:.2f} mm cut off the base".format(deformation["trim_mm"]))
     if deformation and deformation.get("max_mm"):

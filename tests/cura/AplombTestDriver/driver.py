@@ -15,6 +15,7 @@ from UM.Scene.Selection import Selection
 OUT = pathlib.Path(os.environ["APLOMB_DRIVER_OUT"])
 MODEL = os.environ["APLOMB_DRIVER_MODEL"]
 PATIENCE_S = 240
+DONE, FAILED = 3, 4  # of UM.Backend.Backend.BackendState
 SETTINGS = "Settings\u2026"
 
 
@@ -28,6 +29,7 @@ class Driver(Extension):
         self._story = None
         self._condition = None
         self._since = 0
+        self._slicing = 0
         self._timer = QTimer()
         self._timer.setInterval(100)
         self._timer.timeout.connect(self._go_on)
@@ -162,13 +164,15 @@ class Driver(Extension):
     def slice(self):
         scene = self._app.getController().getScene()
         backend = self._app.getBackend()
-        states = []
-        backend.backendStateChange.connect(states.append)
+        backend.backendStateChange.connect(self.note_state)  # held weakly: no lambda
         backend.forceSlice()
-        yield lambda: states and int(states[-1]) in (3, 4)  # done, or failed
+        yield lambda: self._slicing in (DONE, FAILED)
         yield self.after(1)
         (OUT / "made.gcode").write_text("".join(getattr(scene, "gcode_dict")[0]))
-        self._seen["sliced"] = int(states[-1])
+        self._seen["sliced"] = self._slicing == DONE
+
+    def note_state(self, state):
+        self._slicing = int(state)
 
     def change_while_at_work(self, node):
         """Turns the model before the answer comes: it was not asked about this pose."""
