@@ -6,11 +6,12 @@
 /* Aplomb for programs in any language: triangles in, triangles that stand out.
  *
  * Threads: any thread may call, and results may be read and freed on any. The calls that work (aplomb_stand,
- * aplomb_check, aplomb_validate) run one after another in a process; one that waits for its turn still asks its listener
- * and can be cancelled. Each uses as many threads as its job's "threads" allows, all of which are idle when it returns.
+ * aplomb_check, aplomb_validate) run one after another in a process; one that waits for its turn still asks its
+ * listener and can be cancelled. Each uses as many threads as its job's "threads" allows, all of which are idle when it
+ * returns.
  *
- * Memory: what the library returns belongs to the library and lives until its result is freed. What is passed in is only
- * read, and not after the call. No C++ exception leaves the library, and none may leave a listener.
+ * Memory: what the library returns belongs to the library and lives until its result is freed. What is passed in is
+ * only read, and not after the call. No C++ exception leaves the library, and none may leave a listener.
  *
  * The process: repairing a broken mesh may fork, for work that must not take the host down; the child is waited for by
  * its number. No signal handler, locale, standard stream or working folder is touched, and no file is written. */
@@ -51,8 +52,8 @@ enum {
 /* A few words for each of them, in English; never null. */
 APLOMB_API const char* aplomb_status_text(aplomb_status status);
 
-/* Triangles in millimetres, z up, counter-clockwise seen from outside. Exactly one of the two kinds of vertices is given;
- * they are taken as float32, which is what slicers read. Set all bytes to 0 and then struct_size first. */
+/* Triangles in millimetres, z up, counter-clockwise seen from outside. Exactly one of the two kinds of vertices is
+ * given; they are taken as float32, which is what slicers read. Set all bytes to 0 and then struct_size first. */
 typedef struct aplomb_mesh {
   uint64_t struct_size;          /* sizeof(aplomb_mesh) */
   const float* float_vertices;   /* x, y, z of each vertex; or null */
@@ -62,8 +63,8 @@ typedef struct aplomb_mesh {
   uint64_t triangle_count;
 } aplomb_mesh;
 
-/* Told how far a call is, at least every 100 ms, on the thread of the call; the share done is in [0, 1] and never null is
- * the stage ("carve"), which lives for the time of the call to the listener. Returns 0 to cancel: the call then ends
+/* Told how far a call is, at least every 100 ms, on the thread of the call; the share done is in [0, 1] and never null
+ * is the stage ("carve"), which lives for the time of the call to the listener. Returns 0 to cancel: the call then ends
  * within 100 ms. It may not call the library's working calls (they return APLOMB_USAGE). */
 typedef int32_t (*aplomb_progress)(void* user, double fraction, const char* stage);
 
@@ -78,9 +79,9 @@ typedef struct aplomb_result aplomb_result;
 
 /* The calls that work. All take a mesh, a job, a listener or null, and where to put the result.
  *
- * The job is JSON, UTF-8, as lib/aplomb/job/job.schema.json has it, but for the keys that name files ("model", "output",
- * "report", "dump", "html", "picture", "plugs"), which are refused: {"aplomb_job": 1, "wall_mm": 2}. Null or "" stands
- * for {"aplomb_job": 1}: make it stand as it lies, with a tip angle of 10 degrees.
+ * The job is JSON, UTF-8, as lib/aplomb/job/job.schema.json has it, but for the keys that name files ("model",
+ * "output", "report", "dump", "html", "picture", "plugs"), which are refused: {"aplomb_job": 1, "wall_mm": 2}. Null or
+ * "" stands for {"aplomb_job": 1}: make it stand as it lies, with a tip angle of 10 degrees.
  *
  * *result is set to a result that says more, to be freed, also when the call fails; it is null only where memory ran
  * out. `result` itself may be null if only the status is wanted. */
@@ -97,8 +98,8 @@ APLOMB_API aplomb_status aplomb_check(const aplomb_mesh* mesh, const char* job, 
 APLOMB_API aplomb_status aplomb_validate(const aplomb_mesh* mesh, const char* job, const aplomb_listener* listener,
                                          aplomb_result** result);
 
-/* One sentence for people: the verdict, or what went wrong and what helps (where it names a flag of the program, the job's
- * key of that name is meant). Never null. */
+/* One sentence for people: the verdict, or what went wrong and what helps (where it names a flag of the program, the
+ * job's key of that name is meant). Never null. */
 APLOMB_API const char* aplomb_result_message(const aplomb_result* result);
 
 /* The report as JSON, the same that the program's --report writes; "" where there is none. Never null. */

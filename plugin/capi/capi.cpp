@@ -22,7 +22,8 @@ namespace {
 
 static_assert(sizeof(Vec3) == 3 * sizeof(double) && std::is_standard_layout_v<Vec3>, "vertices are shown as doubles");
 static_assert(sizeof(Triangle) == 3 * sizeof(std::uint32_t));
-static_assert(sizeof(aplomb_mesh) == 48 && sizeof(aplomb_listener) == 24, "of ABI version 1, where pointers have 64 bits");
+static_assert(sizeof(aplomb_mesh) == 48 && sizeof(aplomb_listener) == 24,
+              "of ABI version 1, where pointers have 64 bits");
 
 constexpr const char* no_result = "there is no result: memory ran out, or none was asked for";
 constexpr std::chrono::milliseconds patience{50};  // between two questions to a listener that waits

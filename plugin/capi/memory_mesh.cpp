@@ -54,8 +54,8 @@ Result<std::vector<Triangle>> triangles_of(const aplomb_mesh& mesh) {
     for (int corner = 0; corner < 3; ++corner) {
       const std::uint32_t vertex = mesh.triangles[3 * i + corner];
       if (vertex >= mesh.vertex_count)
-        return fail(ErrorCode::unusable_input, fmt::format("triangle {} (from 0) has the vertex {}; there are {}", i,
-                                                           vertex, mesh.vertex_count));
+        return fail(ErrorCode::unusable_input,
+                    fmt::format("triangle {} (from 0) has the vertex {}; there are {}", i, vertex, mesh.vertex_count));
       triangles[i][corner] = vertex;
     }
   return triangles;

@@ -17,9 +17,7 @@ constexpr const char* model_key = "\"model\": \"mesh\"";  // the schema wants on
 
 double height_mm(const Input& input) { return input.solid.box().size().z; }
 
-Finished finished(const Report& report) {
-  return {ending_of(report), verdict(report), to_json(report), {}};
-}
+Finished finished(const Report& report) { return {ending_of(report), verdict(report), to_json(report), {}}; }
 
 }  // namespace
 

@@ -116,8 +116,14 @@ def own_folder():
 def run(command, on_progress):
     """(exit code, lines that it said). on_progress(share done, stage) is asked ten times a second; False cancels."""
     flags = {"creationflags": 0x08000000} if sys.platform == "win32" else {}  # no console window
-    process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
-                               encoding="utf-8", errors="replace", **flags)
+    with subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                          encoding="utf-8", errors="replace", **flags) as process:
+        is_cancelled, said = follow(process, on_progress)
+    return (CANCELLED if is_cancelled else process.returncode), said
+
+
+def follow(process, on_progress):
+    """Reads what it says to its end, in a thread, so that cancelling does not wait for the next line."""
     lines = queue.SimpleQueue()
 
     def listen():
@@ -133,7 +139,7 @@ def run(command, on_progress):
         except queue.Empty:
             line = ""
         if line is None:
-            break
+            return is_cancelled, said
         progress = re.fullmatch(r'\{"progress": ([\d.]+), "stage": "(.*)"\}\s*', line)
         if progress:
             told = float(progress[1]), progress[2]
@@ -142,8 +148,6 @@ def run(command, on_progress):
         if not is_cancelled and not on_progress(*told):
             is_cancelled = True
             process.terminate()
-    code = process.wait()
-    return (CANCELLED if is_cancelled else code), said
 
 
 def figures(report):

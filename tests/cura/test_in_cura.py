@@ -20,7 +20,7 @@ import void_core  # noqa: E402
 from Aplomb import meshes  # noqa: E402
 
 CLI = os.environ["APLOMB_CLI"]
-MODEL = pathlib.Path(os.environ["APLOMB_FIXTURES"]) / "trex.stl"
+MODELS = [pathlib.Path(os.environ["APLOMB_FIXTURES"]) / name for name in ("trex.stl", "seal.stl")]
 FILAMENT_MM, LAYER_MM = 1.75, 0.2
 
 
@@ -65,7 +65,7 @@ class InCura(unittest.TestCase):
         cls.folder = pathlib.Path(tempfile.mkdtemp(prefix="aplomb_cura"))
         package = cls.folder / "Aplomb.curapackage"
         subprocess.run([ROOT / "plugin/cura/build_package", "--program", CLI, "--without-libraries", "-o", package], check=True)
-        cls.seen = run_cura.run(package, MODEL, cls.folder, 900)
+        cls.seen = run_cura.run(package, MODELS, cls.folder, 900)
         cls.out = cls.folder / "out"
 
     @classmethod
@@ -118,22 +118,33 @@ class InCura(unittest.TestCase):
         self.assertIn("changed while", self.seen["changed"]["text"])
         self.assertTrue(self.seen["changed"]["kept"])
 
-    def test_nothing_is_extruded_in_the_void(self):
+    def test_all_models_are_asked_about_or_those_that_are_selected_and_a_group_is_not_taken_apart(self):
+        names = [model.name for model in MODELS]
+        self.assertTrue(all(name in self.seen["of_all"]["text"] for name in names), self.seen["of_all"])
+        self.assertNotIn(names[0], self.seen["of_selected"]["text"])
+        self.assertIn(names[1], self.seen["of_selected"]["text"])
+        self.assertEqual(self.seen["of_group"]["text"].count("part of a group"), 2)
+
+    def test_nothing_is_extruded_in_the_void_which_is_full_where_it_was_not_made(self):
         made = self.plate("made")
-        void = Surface(made[len(self.own("original")):, ::-1])
-        core = void_core.VoidCore([void])
+        core = void_core.VoidCore([Surface(made[len(self.own("original")):, ::-1])])
+        strayed = {name: sum(e.volume * core.share_along(e.start, e.end, e.z) for e in printed(self.out / f"{name}.gcode"))
+                   for name in ("plain", "made")}
         self.assertGreater(core.volume(), 1000)
-        strayed = sum(e.volume * core.share_along(e.start, e.end, e.z) for e in printed(self.out / "made.gcode"))
-        self.assertLess(strayed, 1)  # mm3
+        self.assertLess(strayed["made"], 1)  # mm3
+        self.assertGreater(strayed["plain"], 0.9 * core.volume())
 
     def test_the_printed_centre_of_mass_is_where_it_was_predicted(self):
-        predicted = numpy.array(self.check("made")["com_mm"])
-        self.assertLess(abs(centre_of(printed(self.out / "made.gcode")) - predicted).max(), 0.5)
+        for name, mesh in (("plain", "original"), ("made", "made")):
+            predicted = numpy.array(self.check(mesh)["com_mm"])
+            self.assertLess(abs(centre_of(printed(self.out / f"{name}.gcode")) - predicted).max(), 0.5)
 
-    def test_the_figure_as_it_came_would_fall_and_what_is_printed_stands_by_its_own_gcode(self):
-        before = self.check("original")
-        self.assertLess(margin(before["support_polygon_mm"], before["com_mm"]), 0)
-        self.assertGreater(margin(before["support_polygon_mm"], centre_of(printed(self.out / "made.gcode"))), 2)
+    def test_what_cura_sliced_before_falls_by_its_own_gcode_and_what_it_sliced_after_stands(self):
+        self.assertTrue(self.seen["sliced_plain"] and self.seen["sliced_made"])
+        feet = self.check("original")["support_polygon_mm"]
+        margins = {name: margin(feet, centre_of(printed(self.out / f"{name}.gcode"))) for name in ("plain", "made")}
+        self.assertLess(margins["plain"], -1, margins)
+        self.assertGreater(margins["made"], 2, margins)
 
     def check(self, name):
         """What the program says of a mesh where it lies on Cura's bed."""

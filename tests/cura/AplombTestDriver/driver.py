@@ -8,13 +8,16 @@ import numpy
 from PyQt5.QtCore import QObject, QTimer, QUrl
 from PyQt5.QtQuick import QQuickWindow
 from UM.Extension import Extension
+from UM.Math.Vector import Vector
 from UM.PluginRegistry import PluginRegistry
 from UM.Scene.Iterator.DepthFirstIterator import DepthFirstIterator
 from UM.Scene.Selection import Selection
 
 OUT = pathlib.Path(os.environ["APLOMB_DRIVER_OUT"])
 MODEL = os.environ["APLOMB_DRIVER_MODEL"]
+SECOND_MODEL = os.environ["APLOMB_DRIVER_SECOND_MODEL"]
 PATIENCE_S = 240
+PICTURED_LAYER = 360
 DONE, FAILED = 3, 4  # of UM.Backend.Backend.BackendState
 SETTINGS = "Settings\u2026"
 
@@ -69,6 +72,7 @@ class Driver(Extension):
 
         yield from self.choose("Will it stand?")
         self.see_verdict("checked")
+        yield from self.slice("plain")
         yield from self.change_settings(plugin)
         yield from self.cancel()
         self._seen["kept_after_cancel"] = node.getMeshData() is original
@@ -80,7 +84,7 @@ class Driver(Extension):
         self.save_mesh("made", node)
         yield from self.choose("Will it stand?")
         self.see_verdict("checked_again")
-        yield from self.slice()
+        yield from self.slice("made")
 
         stack = self._app.getOperationStack()
         stack.undo()
@@ -89,6 +93,7 @@ class Driver(Extension):
         stack.redo()
         self._seen["redone"] = node.getMeshData() is made
         yield from self.change_while_at_work(node)
+        yield from self.choose_among_several(node)
 
     def prepare(self):
         self._app.getMachineManager().addMachine("creality_ender3", "T")
@@ -104,9 +109,12 @@ class Driver(Extension):
         self._app.getWelcomePagesModel().allFinished.emit()
         yield self.after(2)  # the model is being set down
 
-    def model(self):
+    def models(self):
         root = self._app.getController().getScene().getRoot()
-        return next((node for node in DepthFirstIterator(root) if node.callDecoration("isSliceable")), None)
+        return [node for node in DepthFirstIterator(root) if node.callDecoration("isSliceable")]
+
+    def model(self):
+        return next(iter(self.models()), None)
 
     def after(self, seconds):
         until = time.monotonic() + seconds
@@ -161,15 +169,27 @@ class Driver(Extension):
         yield lambda: self.verdict() is not None
         self._seen["cancelled"] = {"text": self.verdict().getText(), "seconds": time.monotonic() - clicked}
 
-    def slice(self):
+    def slice(self, name):
         scene = self._app.getController().getScene()
         backend = self._app.getBackend()
         backend.backendStateChange.connect(self.note_state)  # held weakly: no lambda
         backend.forceSlice()
         yield lambda: self._slicing in (DONE, FAILED)
         yield self.after(1)
-        (OUT / "made.gcode").write_text("".join(getattr(scene, "gcode_dict")[0]))
-        self._seen["sliced"] = self._slicing == DONE
+        (OUT / (name + ".gcode")).write_text("".join(getattr(scene, "gcode_dict")[0]))
+        self._seen["sliced_" + name] = self._slicing == DONE
+        if "APLOMB_CURA_PICTURES" in os.environ:
+            yield from self.preview(name)
+
+    def preview(self, name):
+        """A picture of the layers, cut open in the middle of the void."""
+        self._app.getController().setActiveStage("PreviewStage")
+        yield self.after(10)
+        self._app.getController().getActiveView().setLayer(PICTURED_LAYER)
+        yield self.after(3)
+        self.picture(self._app.getMainWindow(), "layers_" + name)
+        self._app.getController().setActiveStage("PrepareStage")
+        yield self.after(1)
 
     def note_state(self, state):
         self._slicing = int(state)
@@ -183,12 +203,26 @@ class Driver(Extension):
             message.hide()
         PluginRegistry.getInstance().getPluginObject("Aplomb").activateMenuItem("Make it stand")
         yield lambda: any((message.getProgress() or 0) > 5 for message in self._app.getVisibleMessages())
-        from UM.Math.Vector import Vector
-
-        Selection.clear()
         node.scale(Vector(1.1, 1.1, 1.1))
         yield lambda: self.verdict() is not None
         self._seen["changed"] = {"text": self.verdict().getText(), "kept": node.getMeshData() is original}
+
+    def choose_among_several(self, first):
+        """A second model: both are asked about, then the selected one, then both as a group."""
+        self._app.readLocalFile(QUrl.fromLocalFile(SECOND_MODEL), "open_as_model")
+        yield lambda: len(self.models()) == 2
+        yield self.after(2)
+        second = next(node for node in self.models() if node is not first)
+        Selection.clear()
+        yield from self.choose("Will it stand?")
+        self.see_verdict("of_all")
+        Selection.add(second)
+        yield from self.choose("Will it stand?")
+        self.see_verdict("of_selected")
+        Selection.add(first)
+        self._app.groupSelected()
+        yield from self.choose("Will it stand?")
+        self.see_verdict("of_group")
 
     def save_mesh(self, name, node):
         mesh = node.getMeshData()
