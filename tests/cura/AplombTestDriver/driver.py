@@ -182,13 +182,18 @@ class Driver(Extension):
             yield from self.preview(name)
 
     def preview(self, name):
-        """A picture of the layers, cut open in the middle of the void."""
-        self._app.getController().setActiveStage("PreviewStage")
+        """A picture of a layer from above, in the middle of the void."""
+        controller = self._app.getController()
+        for message in self._app.getVisibleMessages()[:]:
+            message.hide()
+        controller.setActiveStage("PreviewStage")
         yield self.after(10)
-        self._app.getController().getActiveView().setLayer(PICTURED_LAYER)
-        yield self.after(3)
+        controller.getActiveView().setLayer(PICTURED_LAYER)
+        controller.setCameraRotation("y", 90)
+        yield self.after(4)
         self.picture(self._app.getMainWindow(), "layers_" + name)
-        self._app.getController().setActiveStage("PrepareStage")
+        controller.setCameraRotation("home", 0)
+        controller.setActiveStage("PrepareStage")
         yield self.after(1)
 
     def note_state(self, state):
