@@ -1,4 +1,5 @@
-/* Makes a leaning box stand and writes it as OBJ: example OUT.obj [JOB]. What the library says goes to standard error. */
+/* Makes a leaning box stand and writes it as OBJ: example OUT.obj [JOB]. What the library says goes to standard error.
+ */
 #include <stdio.h>
 #include <stdlib.h>
 

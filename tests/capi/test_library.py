@@ -58,6 +58,13 @@ class Library(unittest.TestCase):
         version = re.search(r"#define APLOMB_ABI_VERSION (\d+)", HEADER.read_text())[1]
         self.assertEqual(os.environ["APLOMB_SONAME"], f"libaplomb.so.{version}")
 
+    def test_it_may_be_unloaded_after_it_has_worked(self):
+        worked = ("import _ctypes, ctypes, time; library = ctypes.CDLL(%r); assert library.aplomb_check(None, None, None, None) == 1; "
+                  "_ctypes.dlclose(library._handle); time.sleep(0.2)" % LIBRARY)
+        subprocess.run([sys.executable, "-c", worked], check=True)
+        told = subprocess.run(["readelf", "-d", LIBRARY], check=True, capture_output=True, text=True).stdout
+        self.assertIn("NODELETE", told)
+
     def test_its_header_is_a_header_of_cplusplus_too(self):
         for compiler, language in (("cc", "c"), ("c++", "c++")):
             subprocess.run([compiler, "-x", language, "-pedantic", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", HEADER], check=True)

@@ -1,4 +1,5 @@
 """The menu, the settings and what becomes of a run."""
+import html
 import os
 
 try:
@@ -101,4 +102,4 @@ class AplombExtension(QObject, Extension):
         if hasattr(Message, "MessageType"):  # not before Cura 4.11
             kind = Message.MessageType
             arguments["message_type"] = {verdict.GOOD: kind.POSITIVE, verdict.WARNING: kind.WARNING, verdict.ERROR: kind.ERROR}[said.level]
-        Message(said.text, **arguments).show()
+        Message(html.escape(said.text, quote=False), **arguments).show()
