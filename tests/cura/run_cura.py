@@ -75,4 +75,6 @@ def run(package, models, folder, seconds):
     if not (out / "seen.json").exists():
         logs = [folder / "cura.log", *home.rglob("cura.log"), *home.rglob("stderr.log")]
         raise RuntimeError("\n".join(f"--- {path}\n" + path.read_text(errors="replace")[-4000:] for path in logs if path.exists()))
-    return json.loads((out / "seen.json").read_text())
+    seen = json.loads((out / "seen.json").read_text())
+    seen["complaints"] = [line for line in (folder / "cura.log").read_text(errors="replace").splitlines() if "plugins/Aplomb/" in line]
+    return seen

@@ -3,7 +3,7 @@
 
 Of Cura there is a stand-in that can be imported and keeps preferences. The real one is in test_in_cura.py.
 """
-import importlib
+import importlib.util
 import os
 import pathlib
 import sys
@@ -12,8 +12,6 @@ import unittest
 
 os.environ.update(QT_QPA_PLATFORM="offscreen", QT_QUICK_BACKEND="software")
 BINDING = sys.argv.pop(1)
-if BINDING == "PyQt5":
-    sys.modules["PyQt6"] = None  # not found
 ROOT = pathlib.Path(__file__).resolve().parents[2] / "plugin/cura"
 sys.path.insert(0, str(ROOT))
 QtCore, QtGui, QtQml, QtQuick = (importlib.import_module(f"{BINDING}.{name}") for name in ("QtCore", "QtGui", "QtQml", "QtQuick"))
@@ -103,6 +101,11 @@ class Dialog(unittest.TestCase):
         self.assertEqual((self.preferences["aplomb/tip_deg"], self.preferences["aplomb/aim"]), (7.5, "stable"))
         self.preferences["aplomb/tip_deg"] = "7.5"  # as after a restart
         self.assertEqual(self.plugin.values()["tip_deg"], 7.5)
+
+    def test_the_plugin_takes_the_qt_that_cura_has_loaded_though_both_are_installed(self):
+        self.assertIsInstance(self.plugin, QtCore.QObject)
+        for binding in ("PyQt5", "PyQt6"):
+            self.assertIsNotNone(importlib.util.find_spec(binding))
 
     def test_closing_it_changes_nothing(self):
         before = dict(self.preferences)

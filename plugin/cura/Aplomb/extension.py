@@ -1,10 +1,11 @@
 """The menu, the settings and what becomes of a run."""
 import html
 import os
+import sys
 
-try:
+if "PyQt6.QtCore" in sys.modules:  # what Cura itself has loaded; both may be installed, and they do not mix
     from PyQt6.QtCore import QObject, pyqtSlot
-except ImportError:
+else:
     from PyQt5.QtCore import QObject, pyqtSlot
 
 from UM.Application import Application

@@ -16,7 +16,7 @@ from UM.Scene.Selection import Selection
 OUT = pathlib.Path(os.environ["APLOMB_DRIVER_OUT"])
 MODEL = os.environ["APLOMB_DRIVER_MODEL"]
 SECOND_MODEL = os.environ["APLOMB_DRIVER_SECOND_MODEL"]
-PATIENCE_S = 240
+PATIENCE_S = 300
 PICTURED_LAYER = 360
 DONE, FAILED = 3, 4  # of UM.Backend.Backend.BackendState
 SETTINGS = "Settings\u2026"
