@@ -164,6 +164,41 @@ static void threads_wait_for_each_other(void) {
   for (i = 0; i < 3; ++i) EXPECT(pthread_join(threads[i], NULL) == 0 && statuses[i] == APLOMB_STANDS);
 }
 
+static int32_t cancel_what_waits(void* user, double fraction, const char* stage) {
+  (void)fraction;
+  EXPECT(strcmp(stage, "wait") == 0);
+  ++((witness*)user)->reports;
+  return 0;
+}
+
+static void* call_and_cancel(void* user) {
+  leaning_box box;
+  aplomb_listener listener = {sizeof listener, cancel_what_waits, NULL};
+  listener.user = user;
+  make_box(&box, 0);
+  ((witness*)user)->inner = aplomb_check(&box.mesh, NULL, &listener, NULL);
+  return NULL;
+}
+
+/* In the middle of a call: another thread makes one, which must wait, and cancels it. */
+static int32_t let_another_call(void* user, double fraction, const char* stage) {
+  pthread_t thread;
+  (void)fraction, (void)stage;
+  if (((witness*)user)->reports > 0) return 1;
+  EXPECT(pthread_create(&thread, NULL, call_and_cancel, user) == 0 && pthread_join(thread, NULL) == 0);
+  return 1;
+}
+
+static void a_call_that_waits_for_its_turn_can_be_cancelled(void) {
+  leaning_box box;
+  witness w = {0};
+  aplomb_listener listener = {sizeof listener, let_another_call, NULL};
+  listener.user = &w;
+  make_box(&box, 0);
+  EXPECT(aplomb_check(&box.mesh, NULL, &listener, NULL) == APLOMB_STANDS);
+  EXPECT(w.inner == APLOMB_CANCELLED && w.reports == 1);
+}
+
 int main(int argc, char** argv) {
   static const named_test tests[] = {TEST(a_box_tips_at_the_angle_that_its_shape_gives),
                                      TEST(doubles_and_floats_give_the_same_bytes),
@@ -172,6 +207,7 @@ int main(int argc, char** argv) {
                                      TEST(loose_triangles_are_joined_as_those_of_an_stl),
                                      TEST(a_call_can_be_cancelled_at_any_report),
                                      TEST(a_listener_may_not_call_back),
-                                     TEST(threads_wait_for_each_other)};
+                                     TEST(threads_wait_for_each_other),
+                                     TEST(a_call_that_waits_for_its_turn_can_be_cancelled)};
   return run_tests(argc, argv, tests, sizeof tests / sizeof *tests);
 }
