@@ -99,6 +99,13 @@ class InCura(unittest.TestCase):
     def test_settings_are_remembered_in_the_preferences(self):
         self.assertEqual(self.seen["settings"], {"tip_deg": 8.0, "wall_mm": 1.6, "aim": "least", "deform": "never"})
 
+    def test_infill_layer_height_filament_and_what_spoils_a_void_are_read_from_cura(self):
+        profile, spoilt = self.seen["profile"], self.seen["profile_spoilt"]
+        self.assertEqual((profile["infill_percent"], profile["layer_mm"], profile["density_g_per_cm3"]), (100, 0.2, 1.24))
+        self.assertEqual(profile["spoilt_by"], [])
+        self.assertEqual(spoilt["infill_percent"], 33)
+        self.assertIn("Remove All Holes", spoilt["spoilt_by"][0])
+
     def test_a_run_shows_how_far_it_is_and_is_cancelled_by_a_click(self):
         self.assertGreater(self.seen["progress"]["value"], 5)
         self.assertIn("cancelled", self.seen["cancelled"]["text"])

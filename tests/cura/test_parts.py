@@ -183,6 +183,18 @@ class Verdicts(unittest.TestCase):
                        "{:.1f} cm\u00b3".format(report["carving"]["void_mm3"] / 1000), "{:.2f} mm".format(report["wall_mm"]["measured"])):
             self.assertIn(number, told.text)
 
+    def test_settings_that_would_fill_the_void_are_named(self):
+        cura = {"meshfix_union_all_remove_holes": False, "support_type": "everywhere", "support_enable": False}
+        self.assertEqual(verdict.spoilers(cura.get), [])
+        cura.update(support_enable=True, meshfix_union_all_remove_holes=True)
+        spoilt = verdict.spoilers(cura.get)
+        self.assertEqual(len(spoilt), 2)
+        report = {"required_tip_deg": 10.0, "before": {"tip_deg": -1.0, "mass_g": 2.0, "com_height_mm": 3.0}}
+        told = verdict.of_stand("trex", verdict.STANDS, report, [], True, spoilt)
+        self.assertEqual(told.level, verdict.WARNING)
+        self.assertTrue(all(text in told.text for text in spoilt))
+        self.assertEqual(verdict.of_stand("trex", verdict.STANDS, report, [], False, spoilt).level, verdict.GOOD)  # no void
+
     def test_what_cannot_stand_or_would_not_print_is_left_and_said_why(self):
         code, report, said = self.report_of("stand", str(FIXTURES / "rearing_horse.stl"))
         self.assertEqual(code, verdict.CANNOT_STAND)

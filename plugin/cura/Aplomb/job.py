@@ -82,7 +82,7 @@ class BalanceJob(Job):
         made = None
         if code == verdict.STANDS and report.get("outcome") == "stands":
             made = meshes.back_into_node(meshes.read_stl(output), sent, own, state.world)
-        return state, verdict.of_stand(state.name, code, report, said, made is not None), made
+        return state, verdict.of_stand(state.name, code, report, said, made is not None, profile.get("spoilt_by", ())), made
 
     def _show(self, number, name, share, stage):
         self._message.setText("{}: {}".format(name, stage))

@@ -5,7 +5,7 @@ from UM.Mesh.MeshData import MeshData, calculateNormalsFromVertices
 from UM.Scene.Iterator.DepthFirstIterator import DepthFirstIterator
 from UM.Scene.Selection import Selection
 
-from . import meshes
+from . import meshes, verdict
 
 NOT_PRINTED = ("isNonPrintingMesh", "isInfillMesh", "isSupportMesh", "isAntiOverhangMesh", "isCuttingMesh")
 
@@ -61,7 +61,8 @@ class ModelState:
 
 
 def print_profile(node):
-    """How Cura will print a model: infill_percent, layer_mm, density_g_per_cm3; what it does not tell is missing."""
+    """How Cura will print a model: infill_percent, layer_mm, density_g_per_cm3, and what spoils a void (spoilt_by); what it
+    does not tell is missing."""
     profile = {}
     try:
         stack = Application.getInstance().getGlobalContainerStack()
@@ -70,6 +71,7 @@ def print_profile(node):
         extruder = stack.extruderList[position]
         own = node.callDecoration("getStack") or extruder  # settings of the model itself, over the extruder's
         profile["infill_percent"] = float(own.getProperty("infill_sparse_density", "value"))
+        profile["spoilt_by"] = verdict.spoilers(lambda key: own.getProperty(key, "value"))
         density = extruder.material.getMetaDataEntry("properties", {}).get("density")
         if density:
             profile["density_g_per_cm3"] = float(density)

@@ -6,6 +6,14 @@ GOOD, WARNING, ERROR = "good", "warning", "error"
 
 Verdict = collections.namedtuple("Verdict", "level text")
 
+# Settings of Cura's that spoil a void that was rightly made: key, the value that does, what is to be done.
+SPOILERS = (
+    ("meshfix_union_all_remove_holes", True, "\u201cRemove All Holes\u201d is on and would fill the void: turn it off."),
+    ("conical_overhang_enabled", True, "\u201cMake Overhang Printable\u201d is on and would fill the void: turn it off."),
+    ("magic_spiralize", True, "\u201cSpiralize Outer Contour\u201d is on: the void would not be printed at all. Turn it off."),
+    ("support_type", "everywhere", "Supports would be put into the void: let them touch the build plate only."),
+)
+
 PLAINLY = {
     UNUSABLE: "cannot be used",
     OVER_BUDGET: "takes too much memory",
@@ -81,8 +89,17 @@ def of_check(name, code, report, said):
     return of_failure(name, code, said)
 
 
-def of_stand(name, code, report, said, is_swapped):
-    """Of "Make it stand"."""
+def spoilers(setting):
+    """What spoils the void, a sentence each. setting(key) is the value that Cura has; of no use without supports."""
+    return [text for key, value, text in SPOILERS
+            if setting(key) == value and (key != "support_type" or setting("support_enable") is True)]
+
+
+def of_stand(name, code, report, said, is_swapped, spoilt_by=()):
+    """Of "Make it stand". \\param spoilt_by  what spoilers() gave."""
+    if code == STANDS and is_swapped and spoilt_by:
+        lines = ["{}: it stands now, but not as Cura is set.".format(name)] + list(spoilt_by) + _figures(report)
+        return Verdict(WARNING, "\n".join(lines))
     if code == STANDS:
         head = "{}: it stands now." if is_swapped else "{}: it stood already, and is left as it was."
         return Verdict(GOOD, "\n".join([head.format(name)] + _figures(report)))

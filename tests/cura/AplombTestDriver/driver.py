@@ -1,6 +1,7 @@
 import json
 import os
 import pathlib
+import sys
 import time
 import traceback
 
@@ -74,6 +75,7 @@ class Driver(Extension):
         self.see_verdict("checked")
         yield from self.slice("plain")
         yield from self.change_settings(plugin)
+        self.read_profiles(plugin, node)
         yield from self.cancel()
         self._seen["kept_after_cancel"] = node.getMeshData() is original
 
@@ -150,6 +152,17 @@ class Driver(Extension):
         yield lambda: not dialog.isVisible()
         preferences = self._app.getPreferences()
         self._seen["settings"] = {key: preferences.getValue("aplomb/" + key) for key in ("tip_deg", "wall_mm", "aim", "deform")}
+
+    def read_profiles(self, plugin, node):
+        """What the plugin reads of Cura's settings, as they are and with some that spoil a void."""
+        scene = sys.modules[type(plugin).__module__].scene
+        settings = self._app.getGlobalContainerStack().extruderList[0].userChanges
+        self._seen["profile"] = scene.print_profile(node)
+        for key, value in (("meshfix_union_all_remove_holes", True), ("infill_sparse_density", 33)):
+            settings.setProperty(key, "value", value)
+        self._seen["profile_spoilt"] = scene.print_profile(node)
+        settings.removeInstance("meshfix_union_all_remove_holes")
+        settings.setProperty("infill_sparse_density", "value", 100)
 
     def dialog(self):
         windows = [window for window in self._app.topLevelWindows() if isinstance(window, QQuickWindow)]
