@@ -138,6 +138,7 @@ class InCura(unittest.TestCase):
         core = void_core.VoidCore([Surface(made[len(self.own("original")):, ::-1])])
         strayed = {name: sum(e.volume * core.share_along(e.start, e.end, e.z) for e in printed(self.out / f"{name}.gcode"))
                    for name in ("plain", "made")}
+        print(f"core {core.volume():.0f} mm3, extruded in it {strayed['plain']:.0f} before, {strayed['made']:.2f} mm3 after")
         self.assertGreater(core.volume(), 1000)
         self.assertLess(strayed["made"], 1)  # mm3
         self.assertGreater(strayed["plain"], 0.9 * core.volume())
@@ -145,12 +146,15 @@ class InCura(unittest.TestCase):
     def test_the_printed_centre_of_mass_is_where_it_was_predicted(self):
         for name, mesh in (("plain", "original"), ("made", "made")):
             predicted = numpy.array(self.check(mesh)["com_mm"])
-            self.assertLess(abs(centre_of(printed(self.out / f"{name}.gcode")) - predicted).max(), 0.5)
+            off = centre_of(printed(self.out / f"{name}.gcode")) - predicted
+            print(f"{name}: centre of mass of the G-code less the predicted one {off.round(3)} mm")
+            self.assertLess(abs(off).max(), 0.5)
 
     def test_what_cura_sliced_before_falls_by_its_own_gcode_and_what_it_sliced_after_stands(self):
         self.assertTrue(self.seen["sliced_plain"] and self.seen["sliced_made"])
         feet = self.check("original")["support_polygon_mm"]
         margins = {name: margin(feet, centre_of(printed(self.out / f"{name}.gcode"))) for name in ("plain", "made")}
+        print("margins by the G-code:", margins)
         self.assertLess(margins["plain"], -1, margins)
         self.assertGreater(margins["made"], 2, margins)
 
