@@ -33,8 +33,12 @@ Ending ending_of(const Judgement& judgement) { return judgement.passes() ? Endin
 
 std::optional<std::string> refusal(const Report& report, const StandOptions& options) {
   assert(report.judgement);
+  if (options.best_effort) return std::nullopt;
   const auto failures = report.judgement->new_failures();
-  if (failures.empty() || options.best_effort) return std::nullopt;
+  if (failures.empty()) {
+    if (report.outcome != Outcome::best_effort) return std::nullopt;
+    return "nothing was written; --best-effort writes it all the same";
+  }
   return fmt::format(
       "nothing was written, for what carving makes of it would not print: {0}; --best-effort writes it all the same, "
       "and --waive {1} accepts a finding",

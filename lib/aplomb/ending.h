@@ -30,8 +30,8 @@ Ending ending_of(const Report& report);
 /// Of a `validate`.
 Ending ending_of(const Judgement& judgement);
 
-/// Why what was made is not to be given out, as a sentence: it would not print where the model as it came did, and the
-/// best effort was not asked for. Nothing where it may.
+/// Why what was made is not to be given out, as a sentence: it would not print where the model as it came did, or what
+/// was measured falls short, and the best effort was not asked for. Nothing where it may.
 ///
 /// \pre report is of measure_output().
 std::optional<std::string> refusal(const Report& report, const StandOptions& options);

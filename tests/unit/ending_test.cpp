@@ -47,6 +47,8 @@ TEST(Refusal, NamesTheCheckUnlessTheBestEffortWasAskedFor) {
   EXPECT_NE(why->find("wall.thin"), std::string::npos);
   EXPECT_FALSE(refusal(report_with(Outcome::stands, true), {.best_effort = true}));
   EXPECT_FALSE(refusal(report_with(Outcome::stands, false), {}));
+  EXPECT_TRUE(refusal(report_with(Outcome::best_effort, false), {}));
+  EXPECT_FALSE(refusal(report_with(Outcome::best_effort, false), {.best_effort = true}));
 }
 
 TEST(Input, OfAMeshInMemoryIsThatOfItsFile) {
