@@ -60,8 +60,10 @@ TEST(Input, OfAMeshInMemoryIsThatOfItsFile) {
       load_solid(MeshFile{"mesh in memory", 1, true, {{"a", box}, {"b", test::box({50, 0, 0}, {60, 10, 10})}}, {}}, {});
   ASSERT_FALSE(two);
   EXPECT_EQ(two.error().code, ErrorCode::unusable_input);
+  InputOptions second_of_them;
+  second_of_them.object = 2;
   const auto second =
-      load_print(MeshFile{"", 1, true, {{"a", box}, {"b", test::box({50, 0, 0}, {60, 10, 10})}}, {}}, {.object = 2});
+      load_print(MeshFile{"", 1, true, {{"a", box}, {"b", test::box({50, 0, 0}, {60, 10, 10})}}, {}}, second_of_them);
   ASSERT_TRUE(second);
   EXPECT_NEAR(bounding_box(*second).min.x, 50, 1e-9);
 }
