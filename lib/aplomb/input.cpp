@@ -49,15 +49,41 @@ PlacementOptions with_file_unit(PlacementOptions placement, const MeshFile& file
 
 }  // namespace
 
+Result<TriangleMesh> load_print(const MeshFile& file, const InputOptions& options) {
+  std::string several;
+  const auto print = choose_print(file, options.object, several);
+  if (!print) return tl::unexpected(print.error());
+  return place(*print, with_file_unit(options.placement, file)).map([](Placed placed) {
+    return std::move(placed.mesh);
+  });
+}
+
 Result<TriangleMesh> load_print(const std::filesystem::path& path, const InputOptions& options, const Job& job) {
   const auto file = read_mesh(path, options.read, job);
   if (!file) return tl::unexpected(file.error());
+  return load_print(*file, options);
+}
+
+Result<Input> load_solid(const MeshFile& file, const InputOptions& options, const Job& job, const StageViewer& view) {
+  StageSeconds seconds;
+  StageClock clock(seconds);
   std::string several;
-  const auto print = choose_print(*file, options.object, several);
+  const auto print = choose_print(file, options.object, several);
   if (!print) return tl::unexpected(print.error());
-  return place(*print, with_file_unit(options.placement, *file)).map([](Placed placed) {
-    return std::move(placed.mesh);
-  });
+  if (view) view("1-read", *print);
+  const auto placed = place(*print, with_file_unit(options.placement, file));
+  if (!placed) return tl::unexpected(placed.error());
+  if (view) view("2-placed", placed->mesh);
+  auto repaired = repair(placed->mesh, options.repair, job);
+  if (!repaired) return tl::unexpected(repaired.error());
+  if (!several.empty() && split_prints(repaired->solid.mesh()).size() > 1)
+    return fail(ErrorCode::unusable_input, std::move(several));
+  if (view) view("3-solid", repaired->solid.mesh());
+  clock.lap("repair");
+  Input input{repaired->solid, repaired->solid.moments(), std::move(repaired->report), file.notes, seconds};
+  if (!options.placement.up && options.hint_at_resting)
+    if (const auto hint = resting_hint(input.solid.mesh(), input.moments, {})) input.notes.push_back(to_text(*hint));
+  return input;
 }
 
 Result<Input> load_solid(const std::filesystem::path& path, const InputOptions& options, const Job& job,
@@ -66,23 +92,9 @@ Result<Input> load_solid(const std::filesystem::path& path, const InputOptions& 
   StageClock clock(seconds);
   const auto file = read_mesh(path, options.read, job.part(0, 0.3));
   if (!file) return tl::unexpected(file.error());
-  std::string several;
-  const auto print = choose_print(*file, options.object, several);
-  if (!print) return tl::unexpected(print.error());
-  if (view) view("1-read", *print);
   clock.lap("read");
-  const auto placed = place(*print, with_file_unit(options.placement, *file));
-  if (!placed) return tl::unexpected(placed.error());
-  if (view) view("2-placed", placed->mesh);
-  auto repaired = repair(placed->mesh, options.repair, job.part(0.3, 1));
-  if (!repaired) return tl::unexpected(repaired.error());
-  if (!several.empty() && split_prints(repaired->solid.mesh()).size() > 1)
-    return fail(ErrorCode::unusable_input, std::move(several));
-  if (view) view("3-solid", repaired->solid.mesh());
-  clock.lap("repair");
-  Input input{repaired->solid, repaired->solid.moments(), std::move(repaired->report), file->notes, seconds};
-  if (!options.placement.up && options.hint_at_resting)
-    if (const auto hint = resting_hint(input.solid.mesh(), input.moments, {})) input.notes.push_back(to_text(*hint));
+  auto input = load_solid(*file, options, job.part(0.3, 1), view);
+  if (input) input->stage_seconds.insert(input->stage_seconds.begin(), seconds.begin(), seconds.end());
   return input;
 }
 

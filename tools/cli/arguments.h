@@ -25,6 +25,7 @@ struct Arguments {
   JobFile job;                     ///< without an output the poses are only checked
   std::filesystem::path save_job;  ///< where to write `job`; empty: nowhere
   bool quiet = false;
+  bool is_progress_json = false;                           ///< told as lines of JSON, also where there is no terminal
   std::vector<std::pair<std::string, std::string>> given;  ///< flags as they were given, for the report
 };
 

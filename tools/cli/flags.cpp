@@ -109,6 +109,12 @@ void add_reshaping_flags(CLI::App* app, Arguments& a) {
   add_region_flags(app, options.reshape.regions);
 }
 
+void add_progress_flag(CLI::App* app, Arguments& a) {
+  add_choice(
+      app, "--progress", {"auto", "json"}, [&a](const std::string& name) { a.is_progress_json = name == "json"; },
+      "auto: a line on a terminal (default); json: lines {\"progress\": 0.25, \"stage\": \"carve\"} on standard error");
+}
+
 void add_run_flags(CLI::App* app, Arguments& a) {
   add_choice(
       app, "--material", {"pla", "petg", "abs", "asa", "tpu", "resin", "pa12"},
@@ -119,6 +125,7 @@ void add_run_flags(CLI::App* app, Arguments& a) {
   app->add_option("--threads", a.job.threads, "at most this many (default: one per core)")
       ->check(CLI::NonNegativeNumber);
   add_quantity(app, "--memory", a.job.options.memory_bytes, memories, "memory budget, such as 2GB (default 4GB)");
+  add_progress_flag(app, a);
   app->add_flag("-q,--quiet", a.quiet, "no progress and no summary");
 }
 

@@ -1,5 +1,6 @@
 #include <exception>
 #include <iostream>
+#include <new>
 
 #include "interrupt.h"
 #include "run.h"
@@ -11,7 +12,10 @@ int main(int argc, char** argv) {
   catch_interrupts(cancelled_exit);
   try {
     return run(*parsed.arguments);
-  } catch (const std::exception& error) {  // a bug, or memory ran out
+  } catch (const std::bad_alloc&) {
+    std::cerr << "aplomb: memory ran out\n";
+    return 5;
+  } catch (const std::exception& error) {  // a bug
     std::cerr << "aplomb: internal error: " << error.what() << '\n';
     return 7;
   }

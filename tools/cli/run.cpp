@@ -12,6 +12,7 @@
 #include "aplomb/balance/landing.h"
 #include "aplomb/core/stage_clock.h"
 #include "aplomb/core/threads.h"
+#include "aplomb/ending.h"
 #include "aplomb/io/write_mesh.h"
 #include "aplomb/printability/judge.h"
 #include "aplomb/report/json.h"
@@ -25,35 +26,20 @@
 namespace aplomb::cli {
 namespace {
 
-enum Exit { stands = 0, usage = 1, bad_input = 2, cannot_stand = 3, over_budget = 5, does_not_print = 6, internal = 7 };
-
-int exit_code(const Error& error) {
-  switch (error.code) {
-    case ErrorCode::invalid_option:
-      return Exit::usage;
-    case ErrorCode::unusable_input:
-    case ErrorCode::file_system:
-      return Exit::bad_input;
-    case ErrorCode::cancelled:
-      return cancelled_exit;
-    case ErrorCode::over_budget:
-      return Exit::over_budget;
-    default:
-      return Exit::internal;
-  }
-}
+int exit_code(Ending ending) { return static_cast<int>(ending); }
 
 int report_error(const Error& error) {
   fmt::print(stderr, "aplomb: {}\n", error.message);
-  return exit_code(error);
+  return exit_code(ending_of(error));
 }
 
-/// A line that is written over, on a terminal; nothing elsewhere. Its end also wipes it.
+/// A line that is written over, on a terminal, and wiped at the end; or a line of JSON each time, for programs.
 class ProgressLine {
  public:
-  explicit ProgressLine(bool shown) : shown_(shown && isatty(STDERR_FILENO) == 1) {}
+  ProgressLine(bool shown, bool is_json)
+      : is_json_(is_json), shown_(is_json || (shown && isatty(STDERR_FILENO) == 1)) {}
   ~ProgressLine() {
-    if (shown_) fmt::print(stderr, "\r\033[K");
+    if (shown_ && !is_json_) fmt::print(stderr, "\r\033[K");
   }
   Job job() {
     return Job([this](double fraction, std::string_view stage) {
@@ -67,9 +53,11 @@ class ProgressLine {
     const auto now = std::chrono::steady_clock::now();
     if (!shown_ || now - last_ < std::chrono::milliseconds(50)) return;
     last_ = now;
-    fmt::print(stderr, "\r\033[K{:3.0f} % {}", 100 * fraction, stage);
+    if (is_json_) fmt::print(stderr, "{{\"progress\": {:.3f}, \"stage\": \"{}\"}}\n", fraction, stage);
+    else fmt::print(stderr, "\r\033[K{:3.0f} % {}", 100 * fraction, stage);
   }
 
+  bool is_json_;
   bool shown_;
   std::chrono::steady_clock::time_point last_{};
 };
@@ -131,11 +119,8 @@ Result<Report> measure_and_write(const StandRun& made, const Input& input, const
   if (!back) return tl::unexpected(back.error());
   auto report = measure_output(rounded_to_float(back->objects.front().mesh), input, made, options, job.part(0.6, 1));
   if (!report) return report;
-  if (const auto failures = report->judgement->new_failures(); !failures.empty() && !options.best_effort) {
-    report->hints.push_back(fmt::format(
-        "nothing was written, for what carving makes of it would not print: {0}; --best-effort writes it all the same, "
-        "and --waive {1} accepts a finding",
-        fmt::join(failures, ", "), failures.front()));
+  if (auto why = refusal(*report, options)) {
+    report->hints.push_back(std::move(*why));
     return report;
   }
   if (const auto written = write_file_atomically(output, *bytes, remember_temp_file); !written)
@@ -201,9 +186,7 @@ int run_stand(const Arguments& a, const Input& input, const StandOptions& option
   if (const auto paged = write_page(a, report, input, writes ? &*made : nullptr, options, job.part(0.95, 1)); !paged)
     return report_error(paged.error());
   if (const auto published = publish(report, a); !published) return report_error(published.error());
-  if (report.outcome == Outcome::best_effort) return Exit::cannot_stand;
-  const bool is_spoilt = report.judgement && !report.judgement->new_failures().empty();
-  return is_spoilt ? Exit::does_not_print : Exit::stands;
+  return exit_code(ending_of(report));
 }
 
 int run_check(const Arguments& a, const Input& input, const StandOptions& options, const Job& job) {
@@ -214,7 +197,7 @@ int run_check(const Arguments& a, const Input& input, const StandOptions& option
   if (const auto paged = write_page(a, *report, input, nullptr, options, job.part(0.8, 1)); !paged)
     return report_error(paged.error());
   if (const auto published = publish(*report, a); !published) return report_error(published.error());
-  return report->outcome == Outcome::falls ? Exit::cannot_stand : Exit::stands;
+  return exit_code(ending_of(*report));
 }
 
 /// How the judged mesh stands, for the page; nothing where that cannot be measured.
@@ -243,7 +226,7 @@ int run_validate(const Arguments& a, const Job& job) {
   content.standing = standing_of(*mesh, judging.pose);
   content.required_tip_rad = judging.pose->required_tip_rad;
   if (const auto written = write_page(a, content, job.part(0.7, 1)); !written) return report_error(written.error());
-  return judgement->passes() ? Exit::stands : Exit::does_not_print;
+  return exit_code(ending_of(*judgement));
 }
 
 int list_poses(const Arguments& a, const Input& input) {
@@ -252,7 +235,7 @@ int list_poses(const Arguments& a, const Input& input) {
   say(a, to_text(*found), true);
   if (!a.job.report.empty())
     if (const auto written = write_text(a.job.report, to_json(*found)); !written) return report_error(written.error());
-  return Exit::stands;
+  return exit_code(Ending::stands);
 }
 
 /// Writes the command as a job, before it is run.
@@ -271,7 +254,7 @@ int run(const Arguments& a) {
       if (const auto format = format_of(file); !format) return report_error(format.error());
   if (const auto saved = save_job(a); !saved) return report_error(saved.error());
   const ThreadLimit limit(asked.threads);
-  ProgressLine progress(!a.quiet);
+  ProgressLine progress(!a.quiet, a.is_progress_json);
   const Job job = progress.job();
   if (a.command == Command::validate) return run_validate(a, job);
   const auto input = load_solid(asked.model, asked.input, job.part(0, 0.3), dump_into(asked.dump));
