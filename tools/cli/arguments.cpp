@@ -51,7 +51,7 @@ Result<JobFile> job_of(const JobOverrides& overrides) {
   return job;
 }
 
-/// The flags of every command but `run`.
+/// The flags of every command that reads a model.
 void add_flags(Command command, CLI::App* app, Arguments& a, StandingPose& standing, HangingPose& hanging) {
   const bool carves = command == Command::stand || command == Command::hang;
   const bool judges = carves || command == Command::validate;
@@ -67,6 +67,12 @@ void add_flags(Command command, CLI::App* app, Arguments& a, StandingPose& stand
   if (carves || command == Command::check)
     app->add_option("--picture", a.job.picture, "draw it before and after, and cut open, as PNG");
   add_run_flags(app, a);
+}
+
+Parsed finish_verify(Arguments a) {
+  for (const std::string& problem : {find_problem(a.verify.gcode), find_problem(a.verify.options)})
+    if (!problem.empty()) return {std::nullopt, usage_error(problem)};
+  return {std::move(a), 0};
 }
 
 }  // namespace
@@ -86,13 +92,15 @@ Parsed parse_arguments(int argc, char** argv) {
       {Command::hang, app.add_subcommand("hang", "carve a model so that it hangs level from one or two points")},
       {Command::poses, app.add_subcommand("poses", "list the ways a model can rest, and how likely each is")},
       {Command::validate, app.add_subcommand("validate", "judge whether a mesh prints, as it is")},
+      {Command::verify, app.add_subcommand("verify", "measure what a G-code file prints, and whether that stands")},
       {Command::run, app.add_subcommand("run", "run a job file")}};
   for (const auto& [command, sub] : commands)
     if (command == Command::run) add_job_flags(sub, overrides, a);
+    else if (command == Command::verify) add_verify_flags(sub, a);
     else add_flags(command, sub, a, standing, hanging);
   app.footer(
       "Exit: 0 stands, or prints; 1 usage; 2 input unusable; 3 cannot stand; 4 cancelled; 5 over budget; 6 does not "
-      "print; 7 internal.");
+      "print, or not as told; 7 internal.");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -100,6 +108,7 @@ Parsed parse_arguments(int argc, char** argv) {
   }
   for (const auto& [command, sub] : commands)
     if (sub->parsed()) a.command = command, a.given = flags_given(*sub);
+  if (a.command == Command::verify) return finish_verify(std::move(a));
   a.job.input.read.memory_bytes = a.job.options.memory_bytes;
   if (a.command == Command::hang) a.job.poses.front().pose.way = hanging;
   else a.job.poses.front().pose.way = standing;

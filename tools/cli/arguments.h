@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "aplomb/gcode/printed_plate.h"
+#include "aplomb/gcode/verify_print.h"
 #include "aplomb/job/job_file.h"
 
 namespace aplomb::cli {
@@ -17,12 +19,21 @@ enum class Command {
   poses,     ///< list the ways it can rest
   run,       ///< a job file
   validate,  ///< judge whether it prints
+  verify,    ///< measure what G-code prints
+};
+
+/// What `aplomb verify` was asked for.
+struct VerifyArguments {
+  std::filesystem::path program, expect, report;
+  GcodeOptions gcode;
+  VerifyOptions options;
 };
 
 /// What the command line asked for.
 struct Arguments {
   Command command = Command::check;
   JobFile job;                     ///< without an output the poses are only checked
+  VerifyArguments verify;
   std::filesystem::path save_job;  ///< where to write `job`; empty: nowhere
   bool quiet = false;
   std::vector<std::pair<std::string, std::string>> given;  ///< flags as they were given, for the report

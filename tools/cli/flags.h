@@ -27,6 +27,9 @@ void add_region_flags(CLI::App* app, Regions& regions);
 /// What a print is judged by.
 void add_judging_flags(CLI::App* app, Arguments& a);
 
+/// G-code, what is expected of it, and its filaments.
+void add_verify_flags(CLI::App* app, Arguments& a);
+
 /// Material, report, threads, memory, quiet: what every run has.
 void add_run_flags(CLI::App* app, Arguments& a);
 

@@ -2,12 +2,9 @@
 
 #include <fmt/format.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
-#include <span>
 
 #include "aplomb/balance/landing.h"
 #include "aplomb/core/stage_clock.h"
@@ -21,58 +18,11 @@
 #include "comparison.h"
 #include "interrupt.h"
 #include "page.h"
+#include "run_verify.h"
+#include "talk.h"
 
 namespace aplomb::cli {
 namespace {
-
-enum Exit { stands = 0, usage = 1, bad_input = 2, cannot_stand = 3, over_budget = 5, does_not_print = 6, internal = 7 };
-
-int exit_code(const Error& error) {
-  switch (error.code) {
-    case ErrorCode::invalid_option:
-      return Exit::usage;
-    case ErrorCode::unusable_input:
-    case ErrorCode::file_system:
-      return Exit::bad_input;
-    case ErrorCode::cancelled:
-      return cancelled_exit;
-    case ErrorCode::over_budget:
-      return Exit::over_budget;
-    default:
-      return Exit::internal;
-  }
-}
-
-int report_error(const Error& error) {
-  fmt::print(stderr, "aplomb: {}\n", error.message);
-  return exit_code(error);
-}
-
-/// A line that is written over, on a terminal; nothing elsewhere. Its end also wipes it.
-class ProgressLine {
- public:
-  explicit ProgressLine(bool shown) : shown_(shown && isatty(STDERR_FILENO) == 1) {}
-  ~ProgressLine() {
-    if (shown_) fmt::print(stderr, "\r\033[K");
-  }
-  Job job() {
-    return Job([this](double fraction, std::string_view stage) {
-      show(fraction, stage);
-      return !interrupted();
-    });
-  }
-
- private:
-  void show(double fraction, std::string_view stage) {
-    const auto now = std::chrono::steady_clock::now();
-    if (!shown_ || now - last_ < std::chrono::milliseconds(50)) return;
-    last_ = now;
-    fmt::print(stderr, "\r\033[K{:3.0f} % {}", 100 * fraction, stage);
-  }
-
-  bool shown_;
-  std::chrono::steady_clock::time_point last_{};
-};
 
 StageViewer dump_into(const std::filesystem::path& folder) {
   if (folder.empty()) return {};
@@ -90,10 +40,6 @@ double peak_memory_mb() {
   getrusage(RUSAGE_SELF, &own);
   getrusage(RUSAGE_CHILDREN, &children);
   return static_cast<double>(std::max(own.ru_maxrss, children.ru_maxrss)) / 1024;
-}
-
-Result<void> write_text(const std::filesystem::path& path, const std::string& text) {
-  return write_file_atomically(path, std::as_bytes(std::span(text)), remember_temp_file);
 }
 
 /// Says it on standard output when it is the answer, and nothing else is written there.
@@ -265,6 +211,10 @@ Result<void> save_job(const Arguments& a) {
 }  // namespace
 
 int run(const Arguments& a) {
+  if (a.command == Command::verify) {
+    ProgressLine progress(!a.quiet);
+    return run_verify(a, progress.job());
+  }
   const JobFile& asked = a.job;
   for (const std::filesystem::path& file : {asked.output, asked.plugs})
     if (!file.empty() && file != "-")
