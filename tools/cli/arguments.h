@@ -32,7 +32,7 @@ struct VerifyArguments {
 /// What the command line asked for.
 struct Arguments {
   Command command = Command::check;
-  JobFile job;                     ///< without an output the poses are only checked
+  JobFile job;  ///< without an output the poses are only checked
   VerifyArguments verify;
   std::filesystem::path save_job;  ///< where to write `job`; empty: nowhere
   bool quiet = false;

@@ -8,7 +8,9 @@ namespace {
 CLI::Option* add_list(CLI::App* app, const std::string& flag, std::vector<double>& list, const std::string& help) {
   return app->add_option_function<std::string>(
       flag,
-      [&list, flag](const std::string& text) { list = numbers_of(flag, text, 1, 64, "a number, or one for each tool"); },
+      [&list, flag](const std::string& text) {
+        list = numbers_of(flag, text, 1, 64, "a number, or one for each tool");
+      },
       help);
 }
 

@@ -22,7 +22,8 @@ enum class Feature {
 inline constexpr std::size_t feature_count = 10;
 /// In its order.
 inline constexpr std::array<std::string_view, feature_count> feature_names{
-    "model", "unnamed", "support", "support interface", "skirt or brim", "skirt", "brim", "prime tower", "purge", "custom G-code"};
+    "model", "unnamed",     "support", "support interface", "skirt or brim", "skirt",
+    "brim",  "prime tower", "purge",   "custom G-code"};
 
 /// Whether a raft, brim or skirt lies on the bed around the model.
 constexpr bool is_skirt_or_brim(Feature feature) {

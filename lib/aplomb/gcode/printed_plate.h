@@ -23,8 +23,8 @@ struct Filament {
 };
 
 struct GcodeOptions {
-  std::vector<double> diameters_mm;         ///< > 0, by tool, the last for all further ones; empty: as the program says
-  std::vector<double> densities_g_per_cm3;  ///< the same
+  std::vector<double> diameters_mm{};  ///< > 0, by tool, the last for all further ones; empty: as the program says
+  std::vector<double> densities_g_per_cm3{};  ///< the same
 };
 
 /// A sentence that names the field, its value and its range, or nothing.
@@ -58,12 +58,14 @@ struct PrintedPlate {
 
 /// Reads a G-code program in one pass, in memory that does not grow with it.
 ///
-/// Mass is what E pushes out: for each move, density x pi/4 d^2 x (dE less what retractions are owed), lying evenly along the
-/// move, arcs included: (m, sum m c) per object with c the path's exact centroid, lowered by half a layer.
+/// Mass is what E pushes out: for each move, density x pi/4 d^2 x (dE less what retractions are owed), lying evenly
+/// along the move, arcs included: (m, sum m c) per object with c the path's exact centroid, lowered by half a layer.
 ///
 /// \pre  find_problem(options) is empty.
-/// \return file_system; unusable_input for what is no G-code (binary G-code, an archive, text), ends before its slicer's
-///         last lines, lays nothing down, or cannot be read, with the line; over_budget beyond 10,000 objects; cancelled.
+/// \return file_system; unusable_input for what is no G-code (binary G-code, an archive, text), ends before its
+/// slicer's
+///         last lines, lays nothing down, or cannot be read, with the line; over_budget beyond 10,000 objects;
+///         cancelled.
 /// \par Cost  O(bytes); a few MB.
 Result<PrintedPlate> read_gcode(const std::filesystem::path& path, const GcodeOptions& options = {},
                                 const Job& job = {});

@@ -184,8 +184,8 @@ Result<PrintedPlate> Reader::plate(const LineSource& lines) const {
 }  // namespace
 
 std::string find_problem(const GcodeOptions& options) {
-  for (const auto& [name, values] :
-       {std::pair{"diameters_mm", &options.diameters_mm}, std::pair{"densities_g_per_cm3", &options.densities_g_per_cm3}})
+  for (const auto& [name, values] : {std::pair{"diameters_mm", &options.diameters_mm},
+                                     std::pair{"densities_g_per_cm3", &options.densities_g_per_cm3}})
     for (const double value : *values)
       if (!(value > 0) || !std::isfinite(value)) return fmt::format("{} holds {} but must be above 0", name, value);
   return {};

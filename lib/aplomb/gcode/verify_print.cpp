@@ -32,8 +32,7 @@ Result<void> choose(std::vector<PrintedObject>& objects, const std::string& want
   const auto number = number_in(wanted);
   if (found.empty() && number && *number >= 1 && *number <= objects.size()) found.push_back(*number - 1);
   if (found.size() != 1)
-    return fail(ErrorCode::invalid_option,
-                fmt::format("object is '{}' but must be one of: {}", wanted, names));
+    return fail(ErrorCode::invalid_option, fmt::format("object is '{}' but must be one of: {}", wanted, names));
   PrintedObject kept = std::move(objects[found.front()]);
   objects.clear();
   objects.push_back(std::move(kept));

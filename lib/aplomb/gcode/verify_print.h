@@ -13,8 +13,8 @@ namespace aplomb {
 struct ExpectedPrint {
   double mass_g = 0;
   double density_g_per_cm3 = 0;
-  Vec3 com_mm;                   ///< in the model's coordinates
-  double com_height_mm = 0;      ///< above the plate
+  Vec3 com_mm{};             ///< in the model's coordinates
+  double com_height_mm = 0;  ///< above the plate
   double tip_rad = 0;
   std::optional<Box3> box_mm{};  ///< of the model
   Vec2 support_center_mm{};      ///< of the support polygon's box: stands in where there is no box
@@ -22,8 +22,8 @@ struct ExpectedPrint {
 
 struct VerifyOptions {
   double required_tip_rad = std::numbers::pi / 18;  ///< in [0, pi/2)
-  std::string object;                               ///< by its label, or its number from 1; empty: all of them
-  std::optional<ExpectedPrint> expected;            ///< of each object that is judged
+  std::string object{};                             ///< by its label, or its number from 1; empty: all of them
+  std::optional<ExpectedPrint> expected{};          ///< of each object that is judged
   double most_mass_error_ratio = 0.05;              ///< > 0
   double most_com_error_mm = 0.5;                   ///< > 0
 };
@@ -31,8 +31,8 @@ struct VerifyOptions {
 /// A sentence that names the field, its value and its range, or nothing.
 std::string find_problem(const VerifyOptions& options);
 
-/// The print against what was promised. The print may lie anywhere on the bed: the middles of both boxes, seen from above,
-/// are laid over each other, and heights are taken from the plate.
+/// The print against what was promised. The print may lie anywhere on the bed: the middles of both boxes, seen from
+/// above, are laid over each other, and heights are taken from the plate.
 struct PrintError {
   double mass_ratio = 0;         ///< printed / promised - 1; of volumes where the program knows no density
   Vec3 com_mm;                   ///< printed less promised

@@ -32,9 +32,9 @@ std::string headline(const VerifiedObject& object, double required_tip_rad) {
 std::string error_text(const PrintError& error, double told_tip_rad) {
   const Vec3& d = error.com_mm;
   std::string text =
-      line("against the report", fmt::format("mass {:+.1f} %, centre of mass off by {:.2f} mm ({:+.2f}, {:+.2f}, "
-                                             "{:+.2f}), {:.1f} degrees told",
-                                             100 * error.mass_ratio, norm(d), d.x, d.y, d.z, degrees(told_tip_rad)));
+      line("against report", fmt::format("mass {:+.1f} %, centre of mass off by {:.2f} mm ({:+.2f}, {:+.2f}, "
+                                         "{:+.2f}), {:.1f} degrees told",
+                                         100 * error.mass_ratio, norm(d), d.x, d.y, d.z, degrees(told_tip_rad)));
   if (error.has_other_size)
     text += line("", "its size is not the model's: was it scaled or turned, or is it another model?");
   if (!error.is_within_limits) text += line("", "this is not what the report promised");
@@ -52,8 +52,8 @@ std::string figures(const VerifiedObject& object, const std::optional<double>& t
       line("margin", fmt::format("{:.2f} mm, over the edge {} to {}", s.margin_mm, point(s.weak_edge_mm[0]),
                                  point(s.weak_edge_mm[1])));
   if (object.with_brim)
-    text += line("with its brim",
-                 fmt::format("{:.1f} degrees, until it is taken off", degrees(object.with_brim->tip_rad)));
+    text +=
+        line("with its brim", fmt::format("{:.1f} degrees, until it is taken off", degrees(object.with_brim->tip_rad)));
   if (object.error) text += error_text(*object.error, *told_tip_rad);
   return text;
 }
@@ -92,7 +92,9 @@ Json json(const VerifiedObject& object) {
   return out;
 }
 
-Vec3 vector_of(const Json& json) { return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()}; }
+Vec3 vector_of(const Json& json) {
+  return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
+}
 
 /// The measure of the first standing pose. \pre as nlohmann's at(): it throws where a key is missing.
 ExpectedPrint expected_of(const Json& report) {
@@ -116,7 +118,8 @@ std::string to_text(const Verification& v) {
   std::string text;
   for (const VerifiedObject& object : v.objects)
     text += headline(object, v.required_tip_rad) + figures(object, v.told_tip_rad);
-  for (const LeftOut& part : v.plate.left_out) text += line("left out", fmt::format("{:.2f} g {}", part.mass_g, part.what));
+  for (const LeftOut& part : v.plate.left_out)
+    text += line("left out", fmt::format("{:.2f} g {}", part.mass_g, part.what));
   for (const Filament& f : v.plate.filaments)
     text += line("filament", fmt::format("tool {}: {:g} mm, {:g} g/cm3", f.tool, f.diameter_mm, f.density_g_per_cm3));
   for (const std::string& note : v.plate.notes) text += line("note", note);
@@ -137,7 +140,8 @@ std::string to_json(const Verification& v) {
                                 {"diameter_is_known", f.diameter_is_known},
                                 {"density_is_known", f.density_is_known}});
   for (const VerifiedObject& object : v.objects) out["objects"].push_back(json(object));
-  for (const LeftOut& part : v.plate.left_out) out["left_out"].push_back({{"what", part.what}, {"mass_g", part.mass_g}});
+  for (const LeftOut& part : v.plate.left_out)
+    out["left_out"].push_back({{"what", part.what}, {"mass_g", part.mass_g}});
   out["notes"] = v.plate.notes;
   return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

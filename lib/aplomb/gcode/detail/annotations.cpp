@@ -127,8 +127,8 @@ void Annotations::note_slicer(std::string_view text) {
       slicer_name_ = name.substr(0, 60);
     }
   if (slicer_ == Slicer::unknown && text.starts_with("FLAVOR:")) slicer_ = Slicer::cura, slicer_name_ = "Cura";
-  saw_end_ = saw_end_ || text.starts_with("filament used [mm]") || text == "End of Gcode" ||
-             text == "EXECUTABLE_BLOCK_END";
+  saw_end_ =
+      saw_end_ || text.starts_with("filament used [mm]") || text == "End of Gcode" || text == "EXECUTABLE_BLOCK_END";
 }
 
 void Annotations::note_setting(std::string_view text) {

@@ -24,8 +24,8 @@ struct FilamentSettings {
 /// Follows what slicers write beside the moves: which object, which feature, how high a layer.
 ///
 /// Labels: PrusaSlicer and Orca `; printing object NAME`, Bambu `; start printing object, unique label id: N`, Klipper
-/// `EXCLUDE_OBJECT_START NAME=`, Marlin `M486 S`, Cura `;MESH:`. Where several are used, each about the same objects, the
-/// first of this list counts.
+/// `EXCLUDE_OBJECT_START NAME=`, Marlin `M486 S`, Cura `;MESH:`. Where several are used, each about the same objects,
+/// the first of this list counts.
 class Annotations {
  public:
   /// Takes a line that is no move. \return whether the object, feature or layer height may have changed.

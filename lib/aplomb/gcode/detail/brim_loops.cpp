@@ -12,7 +12,8 @@ namespace aplomb::detail {
 namespace {
 
 constexpr std::size_t most_loops = 4096, direction_count = 64;
-constexpr double same_layer_mm = 0.01, touching_widths = 1.5;
+constexpr double same_layer_mm = 0.01,
+                 touching_widths = 2.5;  // corners, and a gap to break it off; skirts keep 2 mm or more
 
 using Reach = std::array<double, direction_count>;  // how far it extends in each direction
 

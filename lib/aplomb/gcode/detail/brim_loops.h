@@ -7,13 +7,13 @@
 
 namespace aplomb::detail {
 
-/// The loops of skirts and brims on the bed, of which a brim is what touches an object: PrusaSlicer and Cura have one name
-/// for both. Constant memory: of each loop the hull is kept, and of no more than a few thousand loops.
+/// The loops of skirts and brims on the bed, of which a brim is what touches an object: PrusaSlicer and Cura have one
+/// name for both. Constant memory: of each loop the hull is kept, and of no more than a few thousand loops.
 class BrimLoops {
  public:
   void add(Vec3 from_mm, Vec3 to_mm, double width_mm);
 
-  /// The hull of an object with the loops that lie within one and a half of their widths of it, one after the other;
+  /// The hull of an object with the loops that lie within two and a half of their widths of it, one after the other;
   /// nothing where none does.
   std::vector<Vec2> around(std::span<const Vec2> contact_corners_mm) const;
 

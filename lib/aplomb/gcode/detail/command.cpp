@@ -1,6 +1,7 @@
 #include "aplomb/gcode/detail/command.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <optional>
 
 namespace aplomb::detail {
@@ -16,29 +17,26 @@ char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + '
 
 /// Takes a number off the front; an "E" behind it is the next word, not an exponent.
 std::optional<double> take_number(std::string_view& text) {
-  std::size_t at = 0;
-  const bool is_negative = !text.empty() && text[0] == '-';
-  if (!text.empty() && (text[0] == '-' || text[0] == '+')) ++at;
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  const bool is_negative = at != end && *at == '-';
+  if (at != end && (*at == '-' || *at == '+')) ++at;
   std::uint64_t digits = 0;
-  int count = 0, fraction = 0;
-  bool in_fraction = false, has_digit = false;
-  for (; at < text.size(); ++at) {
-    const char c = text[at];
-    if (c == '.' && !in_fraction) {
-      in_fraction = true;
-      continue;
-    }
-    if (!is_digit(c)) break;
-    has_digit = true;
-    if (count == most_digits && in_fraction) continue;  // beyond any machine's precision
-    if (count == most_digits) return std::nullopt;
-    digits = 10 * digits + static_cast<std::uint64_t>(c - '0');
-    count += digits > 0;
-    fraction += in_fraction && fraction < most_digits;
+  const char* const whole = at;
+  for (; at != end && is_digit(*at); ++at) digits = 10 * digits + static_cast<std::uint64_t>(*at - '0');
+  std::ptrdiff_t count = at - whole, decimals = 0;
+  if (count > most_digits) return std::nullopt;
+  if (at != end && *at == '.') {
+    const char* const fraction = ++at;
+    const char* const last = fraction + std::min<std::ptrdiff_t>(end - fraction, most_digits - count);
+    for (; at != last && is_digit(*at); ++at) digits = 10 * digits + static_cast<std::uint64_t>(*at - '0');
+    decimals = at - fraction;
+    count += decimals;
+    while (at != end && is_digit(*at)) ++at;  // beyond any machine's precision
   }
-  if (!has_digit) return std::nullopt;
-  text.remove_prefix(at);
-  const double value = static_cast<double>(digits) / powers_of_ten[static_cast<std::size_t>(fraction)];
+  if (count == 0) return std::nullopt;
+  text.remove_prefix(static_cast<std::size_t>(at - text.data()));
+  const double value = static_cast<double>(digits) / powers_of_ten[static_cast<std::size_t>(decimals)];
   return is_negative ? -value : value;
 }
 

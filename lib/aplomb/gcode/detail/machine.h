@@ -32,15 +32,15 @@ struct Stroke {
   Vec3 centroid_mm() const;
 };
 
-/// What a printer makes of its commands: Marlin's, Klipper's and RepRapFirmware's reading where they agree; where they do not,
-/// that of slicers' own previews: E is relative after M83, and after G91 whatever M82 said.
+/// What a printer makes of its commands: Marlin's, Klipper's and RepRapFirmware's reading where they agree; where they
+/// do not, that of slicers' own previews: E is relative after M83, and after G91 whatever M82 said.
 class Machine {
  public:
   static constexpr unsigned most_tools = 64;
 
   /// Obeys the command. What a retraction drew back is owed before anything counts as laid down; firmware retraction
-  /// (G10, G11) moves no E. \return the stroke, if it laid down material; unusable_input for what cannot be read, such as a
-  /// spline or an arc without a centre.
+  /// (G10, G11) moves no E. \return the stroke, if it laid down material; unusable_input for what cannot be read, such
+  /// as a spline or an arc without a centre.
   Result<std::optional<Stroke>> obey(Command& command);
 
   unsigned tool() const { return tool_; }

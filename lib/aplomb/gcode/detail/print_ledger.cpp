@@ -92,7 +92,8 @@ void PrintLedger::enter_model(const Stroke& stroke, double volume_mm3, double he
   Foot& foot = object.foot;
   const double top_mm = std::max(stroke.from_mm.z, stroke.to_mm.z), length_mm = stroke.length_mm();
   if (top_mm > foot.top_mm + same_layer_share * foot.height_mm || !(length_mm > 0) || !(height_mm > 0)) return;
-  if (top_mm < foot.top_mm - same_layer_share * height_mm) foot = Foot{.top_mm = top_mm, .height_mm = height_mm, .hull = {}};
+  if (top_mm < foot.top_mm - same_layer_share * height_mm)
+    foot = Foot{.top_mm = top_mm, .height_mm = height_mm, .hull = {}};
   double width_mm = std::min(most_width_mm, volume_mm3 / (length_mm * height_mm));
   if (foot.length_mm > 1) width_mm = std::min(width_mm, 2 * foot.area_mm2 / foot.length_mm);  // short moves overflow
   foot.area_mm2 += width_mm * length_mm;
@@ -111,8 +112,7 @@ PrintedObject PrintLedger::printed(std::size_t index) const {
   std::map<unsigned, Moments> by_tool;
   for (const auto& [key, moments] : moments_)
     if (key.object == index && is_model(key.feature)) by_tool[key.tool] += moments;
-  for (const auto& [tool, moments] : by_tool)
-    printed.body.push_back({moments, filaments_[tool].density_g_per_cm3, 0});
+  for (const auto& [tool, moments] : by_tool) printed.body.push_back({moments, filaments_[tool].density_g_per_cm3, 0});
   if (object.foot.length_mm > 0) printed.bead_width_mm = object.foot.area_mm2 / object.foot.length_mm;
   SupportPolygon& contact = printed.contact;
   contact.frame.plate_mm = object.foot.top_mm - object.foot.height_mm;

@@ -39,8 +39,8 @@ class PrintLedger {
   void enter(const Stroke& stroke, double height_mm);
 
   double filament_mm() const { return filament_mm_; }
-  /// What the sums come to: objects, and what is left out. Where the program names features, what comes before the first is
-  /// no object's.
+  /// What the sums come to: objects, and what is left out. Where the program names features, what comes before the
+  /// first is no object's.
   void close(bool names_features, PrintedPlate& plate) const;
 
  private:
@@ -64,9 +64,7 @@ class PrintLedger {
   };
   static constexpr std::size_t labelled = 10'000;
 
-  Object& object_at(std::size_t index) {
-    return index < labelled ? objects_[index] : nameless_[index - labelled];
-  }
+  Object& object_at(std::size_t index) { return index < labelled ? objects_[index] : nameless_[index - labelled]; }
   double volume_of(const Stroke& stroke) const;
   void enter_model(const Stroke& stroke, double volume_mm3, double height_mm);
   PrintedObject printed(std::size_t index) const;
