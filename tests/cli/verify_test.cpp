@@ -15,8 +15,9 @@ class VerifyCommand : public CommandLine {
   static bool has_prusaslicer() { return std::system("command -v prusa-slicer >/dev/null") == 0; }
 
   int slice(const std::string& model, const std::string& flags) const {
-    const std::string command = "prusa-slicer --export-gcode --gcode-label-objects --bed-shape 0x0,200x0,200x200,0x200 -o " +
-                                path("print.gcode") + " " + flags + " " + model + " >" + path("slicer") + " 2>&1";
+    const std::string command =
+        "prusa-slicer --export-gcode --gcode-label-objects --bed-shape 0x0,200x0,200x200,0x200 -o " +
+        path("print.gcode") + " " + flags + " " + model + " >" + path("slicer") + " 2>&1";
     const int status = std::system(command.c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
@@ -94,7 +95,8 @@ TEST_F(VerifyCommand, IsAPostProcessingScriptOfPrusaSlicer) {
   ASSERT_EQ(slice(write("cube.stl", test::box({0, 0, 0}, {20, 20, 20})), "--fill-density 20%"), 0) << text_of("slicer");
   const std::size_t plain_bytes = text_of("print.gcode").size();
   ASSERT_EQ(slice(path("cube.stl"), "--fill-density 20% " + script), 0) << text_of("slicer");
-  EXPECT_NEAR(static_cast<double>(text_of("print.gcode").size()), static_cast<double>(plain_bytes), 200);  // its settings
+  EXPECT_NEAR(static_cast<double>(text_of("print.gcode").size()), static_cast<double>(plain_bytes),
+              200);  // its settings
   EXPECT_EQ(slice(toppling(), solid + script), 1);
   EXPECT_NE(text_of("slicer").find("Would topple: leaning.stl"), std::string::npos) << text_of("slicer");
   EXPECT_NE(text_of("slicer").find("Error code: 3"), std::string::npos) << text_of("slicer");

@@ -33,6 +33,8 @@ class Context:
 
     def follow(self, lines):
         for line in lines:
+            if line.startswith("G91"):  # Cura's end code; nothing is printed after it
+                return
             if line.startswith("; printing object "):
                 self.label = line.removeprefix("; printing object ").strip()
             elif line.startswith("; stop printing object"):

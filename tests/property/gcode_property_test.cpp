@@ -22,9 +22,9 @@ std::vector<Move> random_moves(int least_feed_um = -500) {
   std::vector<Move> moves;
   const auto count = *rc::gen::inRange(1, 20);
   for (int i = 0; i < count; ++i)
-    moves.push_back({{*rc::gen::inRange(-9000, 9000) / 1e3, *rc::gen::inRange(-9000, 9000) / 1e3,
-                      0.2 * *rc::gen::inRange(1, 3)},
-                     *rc::gen::inRange(least_feed_um, 2000) / 1e3});
+    moves.push_back(
+        {{*rc::gen::inRange(-9000, 9000) / 1e3, *rc::gen::inRange(-9000, 9000) / 1e3, 0.2 * *rc::gen::inRange(1, 3)},
+         *rc::gen::inRange(least_feed_um, 2000) / 1e3});
   moves.push_back({{10, 10, 0.2}, 3});  // something is laid down
   return moves;
 }

@@ -15,7 +15,8 @@ std::map<std::string, double> masses_mg(const std::string& moves) {
   const auto plate = read_program(plain_start() + moves, plain_filament);
   std::map<std::string, double> masses;
   if (!plate) throw std::runtime_error(plate.error().message);
-  for (const PrintedObject& object : plate->objects) masses[object.name] = std::round(1e6 * mass_of(object.body).mass_g) / 1e3;
+  for (const PrintedObject& object : plate->objects)
+    masses[object.name] = std::round(1e6 * mass_of(object.body).mass_g) / 1e3;
   for (const LeftOut& part : plate->left_out) masses["less " + part.what] = std::round(1e6 * part.mass_g) / 1e3;
   return masses;
 }
@@ -76,9 +77,8 @@ TEST(GcodeLabels, WhatIsNotTheModelIsLeftOutAndTold) {
 
 TEST(GcodeLabels, FilamentsComeFromTheSettingsBeforeOrAfterTheMoves) {
   const std::string moves = plain_start() + "T1\nG1 X5 E1\n";
-  for (const std::string& program :
-       {"; filament_density: 1.24,1.27\n; filament_diameter: 1.75,2.85\n" + moves,
-        moves + "; filament_diameter = 1.75,2.85\n; filament_density = 1.24,1.27\n"}) {
+  for (const std::string& program : {"; filament_density: 1.24,1.27\n; filament_diameter: 1.75,2.85\n" + moves,
+                                     moves + "; filament_diameter = 1.75,2.85\n; filament_density = 1.24,1.27\n"}) {
     const auto plate = read_program(program);
     ASSERT_TRUE(plate) << plate.error().message;
     ASSERT_EQ(plate->filaments.size(), 1u);

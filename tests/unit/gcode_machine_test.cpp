@@ -106,7 +106,8 @@ TEST(GcodeMachine, AnArcIsTheLimitOfFineChords) {
     fine += line;
   }
   char arc[100];
-  std::snprintf(arc, sizeof arc, "G1 X10 Y0\nG3 X%.12f Y%.12f Z0.3 I-10 J0 E2\n", 10 * std::cos(4.0), 10 * std::sin(4.0));
+  std::snprintf(arc, sizeof arc, "G1 X10 Y0\nG3 X%.12f Y%.12f Z0.3 I-10 J0 E2\n", 10 * std::cos(4.0),
+                10 * std::sin(4.0));
   expect_alike(mass_after_start(std::string(";HEIGHT:0.2\n") + arc), mass_after_start(";HEIGHT:0.2\n" + fine), 1e-5);
 }
 

@@ -70,7 +70,8 @@ TEST(VerifyPrint, ABrimHelpsAndASkirtDoesNot) {
 }
 
 ExpectedPrint promised_tube() {
-  ExpectedPrint promised{.mass_g = 0.64, .density_g_per_cm3 = 1, .com_mm = {1, 2, 10}, .com_height_mm = 10, .tip_rad = 0.7};
+  ExpectedPrint promised{
+      .mass_g = 0.64, .density_g_per_cm3 = 1, .com_mm = {1, 2, 10}, .com_height_mm = 10, .tip_rad = 0.7};
   promised.box_mm = Box3{{-9.2, -8.2, 0}, {11.2, 12.2, 20}};
   return promised;
 }
