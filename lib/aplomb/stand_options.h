@@ -8,6 +8,7 @@
 #include "aplomb/balance/poses.h"
 #include "aplomb/carve/carve.h"
 #include "aplomb/deform/reshape.h"
+#include "aplomb/fdm/print_profile.h"
 #include "aplomb/printability/judge.h"
 
 namespace aplomb {
@@ -46,6 +47,7 @@ struct StandOptions {
   std::size_t memory_bytes = std::size_t{4} << 30;
   double density_g_per_cm3 = 1.24;  ///< > 0; PLA
   bool best_effort = false;         ///< make the shell also when it will not stand
+  std::optional<PrintProfile> profile = {};  ///< how it is sliced, z up; none: solid. Carving itself takes it as solid
   JudgeOptions judge = {};          ///< of what is written; its pose is the first that stands as it is printed
 };
 

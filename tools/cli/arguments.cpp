@@ -63,6 +63,7 @@ void add_flags(Command command, CLI::App* app, Arguments& a, StandingPose& stand
     add_carving_flags(app, a);
     add_reshaping_flags(app, a);
   }
+  if (carves || command == Command::check) add_profile_flag(app, a);
   if (command != Command::poses) app->add_option("--html", a.job.html, "write the report as a page for people");
   if (carves || command == Command::check)
     app->add_option("--picture", a.job.picture, "draw it before and after, and cut open, as PNG");
@@ -110,6 +111,8 @@ Parsed parse_arguments(int argc, char** argv) {
     if (sub->parsed()) a.command = command, a.given = flags_given(*sub);
   if (a.command == Command::verify) return finish_verify(std::move(a));
   a.job.input.read.memory_bytes = a.job.options.memory_bytes;
+  if (!a.profile.empty() && !a.save_job.empty())
+    return {std::nullopt, usage_error("a job file cannot hold --profile yet: leave --save-job or --profile out")};
   if (a.command == Command::hang) a.job.poses.front().pose.way = hanging;
   else a.job.poses.front().pose.way = standing;
   a.job.input.hint_at_resting = a.command == Command::check || a.command == Command::stand;

@@ -34,6 +34,7 @@ struct Arguments {
   Command command = Command::check;
   JobFile job;  ///< without an output the poses are only checked
   VerifyArguments verify;
+  std::filesystem::path profile;   ///< how it is sliced; empty: solid
   std::filesystem::path save_job;  ///< where to write `job`; empty: nowhere
   bool quiet = false;
   std::vector<std::pair<std::string, std::string>> given;  ///< flags as they were given, for the report

@@ -84,6 +84,10 @@ Result<Report> measure_and_write(const StandRun& made, const Input& input, const
         fmt::join(failures, ", "), failures.front()));
     return report;
   }
+  if (report->outcome == Outcome::best_effort && !options.best_effort) {
+    report->hints.emplace_back("nothing was written; --best-effort writes it all the same");
+    return report;
+  }
   if (const auto written = write_file_atomically(output, *bytes, remember_temp_file); !written)
     return tl::unexpected(written.error());
   if (const auto plugged = write_plugs(made, a, job); !plugged) return tl::unexpected(plugged.error());
@@ -227,7 +231,12 @@ int run(const Arguments& a) {
   const auto input = load_solid(asked.model, asked.input, job.part(0, 0.3), dump_into(asked.dump));
   if (!input) return report_error(input.error());
   if (a.command == Command::poses) return list_poses(a, *input);
-  const StandOptions options = stand_options(asked, input->solid.box().size().z);
+  StandOptions options = stand_options(asked, input->solid.box().size().z);
+  if (!a.profile.empty()) {
+    const auto profile = read_profile(a.profile);
+    if (!profile) return report_error(profile.error());
+    options.profile = *profile;
+  }
   return asked.output.empty() ? run_check(a, *input, options, job.part(0.3, 1))
                               : run_stand(a, *input, options, job.part(0.3, 1));
 }
