@@ -16,10 +16,14 @@
 namespace aplomb {
 namespace {
 
+std::vector<Region> uniform_body(const Moments& body, const StandOptions& options) {
+  return {Region{body, options.density_g_per_cm3, 0.02}};
+}
+
 /// The solid as it is sliced, or as one piece.
 Result<std::vector<Region>> body_of(const SolidMesh& solid, const Moments& moments, const StandOptions& options,
                                     const Job& job) {
-  if (!options.profile) return std::vector{Region{moments, options.density_g_per_cm3, 0.02}};
+  if (!options.profile) return uniform_body(moments, options);
   const auto print = predict_print(printed_solid(solid), *options.profile, job);
   if (!print) return tl::unexpected(print.error());
   const double told = options.profile->density_g_per_cm3;
@@ -76,13 +80,15 @@ void note_sliced(Report& report) {
   const PoseReport& pose = report.poses.front();
   const double before_g = mass_g(pose.before), after_g = mass_g(*pose.after);
   if (after_g > before_g)
-    report.hints.push_back(fmt::format(
-        "sliced with this profile it becomes heavier: {:.4g} g instead of {:.4g}, for the slicer puts skins round voids; "
-        "at 100 % infill they make it lighter",
-        after_g, before_g));
+    report.hints.push_back(
+        fmt::format("sliced with this profile it becomes heavier: {:.4g} g instead of {:.4g}, for the slicer puts "
+                    "skins round voids; "
+                    "at 100 % infill they make it lighter",
+                    after_g, before_g));
   if (report.outcome == Outcome::best_effort)
     report.hints.emplace_back(
-        "the angle is that of the sliced print, while carving takes the model as solid: slice it at 100 % infill, or ask "
+        "the angle is that of the sliced print, while carving takes the model as solid: slice it at 100 % infill, or "
+        "ask "
         "for a larger angle");
 }
 
@@ -169,7 +175,8 @@ Result<StandRun> finish(StandRun run, const Input& shaped, std::optional<Attempt
     run.shell = Shell{shaped.solid.mesh(), shaped.solid.mesh().triangles.size(), 0, 0, 0};
   }
   if (view && run.shell) view("5-shell", run.shell->mesh);
-  auto after = measure_poses(shaped.solid.mesh(), run.carving ? run.carving->body : shaped.moments, options);
+  const Moments& kept = run.carving ? run.carving->body : shaped.moments;
+  auto after = measure_poses(shaped.solid.mesh(), uniform_body(kept, options), options);
   if (!after) return tl::unexpected(after.error());
   set_after(report, std::move(*after), kind_of(options));
   const bool reaches = run.carving ? run.carving->reaches : all_hold(report);

@@ -110,8 +110,9 @@ void add_reshaping_flags(CLI::App* app, Arguments& a) {
 }
 
 void add_profile_flag(CLI::App* app, Arguments& a) {
-  app->add_option("--profile", a.profile,
-                  "measure it as it is sliced: an .ini of PrusaSlicer, its G-code, or Cura's settings as JSON or lines");
+  app->add_option(
+      "--profile", a.profile,
+      "measure it as it is sliced: an .ini of PrusaSlicer, its G-code, or Cura's settings as JSON or lines");
 }
 
 void add_run_flags(CLI::App* app, Arguments& a) {

@@ -16,13 +16,15 @@ namespace {
 
 constexpr double tolerance_mm = 0.004;  // of the polygons; a bead is a hundred times as wide
 constexpr double most_step_mm = 0.5;    // of an inset: deep ones cost the square of the corners
-constexpr double narrow_shell = 0.3;  // of a bead: skins under twice that are left out where shells keep their thickness
-constexpr double narrow_beads = 3;      // half of what counts as narrow, and by how much that grows
+constexpr double narrow_shell =
+    0.3;                            // of a bead: skins under twice that are left out where shells keep their thickness
+constexpr double narrow_beads = 3;  // half of what counts as narrow, and by how much that grows
 
-/// Share of its rim along which sparse infill's lines are joined, where there is little of it; measured. Rectilinear lines are
-/// joined along every other piece of it.
+/// Share of its rim along which sparse infill's lines are joined, where there is little of it; measured. Rectilinear
+/// lines are joined along every other piece of it.
 double linked_rim(std::string_view pattern) {
-  if (pattern == "rectilinear" || pattern == "alignedrectilinear" || pattern == "line" || pattern == "zigzag") return 0.5;
+  if (pattern == "rectilinear" || pattern == "alignedrectilinear" || pattern == "line" || pattern == "zigzag")
+    return 0.5;
   if (pattern == "grid" || pattern == "lines") return 0.18;
   return 0.25;
 }
@@ -82,7 +84,8 @@ struct Layer {
 
 class Prediction {
  public:
-  Prediction(const PrintProfile& profile, const PrintedSolid& printed) : p_(profile), plate_mm_(printed.solid.box().min.z) {
+  Prediction(const PrintProfile& profile, const PrintedSolid& printed)
+      : p_(profile), plate_mm_(printed.solid.box().min.z) {
     const double gap_mm = p_.rules == PrintProfile::Rules::prusaslicer ? (1 - std::numbers::pi / 4) * p_.layer_mm : 0;
     const double external_mm = p_.external_width_mm - gap_mm, spacing_mm = p_.perimeter_width_mm - gap_mm;
     spacing_mm_ = p_.infill_width_mm - gap_mm;
@@ -95,7 +98,9 @@ class Prediction {
  private:
   const Layer* layer_at(std::size_t k, int away) const {
     const auto other = static_cast<std::ptrdiff_t>(k) + away;
-    return other < 0 || other >= static_cast<std::ptrdiff_t>(layers_.size()) ? nullptr : &layers_[static_cast<std::size_t>(other)];
+    return other < 0 || other >= static_cast<std::ptrdiff_t>(layers_.size())
+               ? nullptr
+               : &layers_[static_cast<std::size_t>(other)];
   }
   Polygons beyond(std::size_t k, int step, int count);
   Polygons hollow_skin(std::size_t k, int step, int count);
@@ -103,9 +108,7 @@ class Prediction {
   void find_solid(std::size_t k);
   void add(std::size_t k, PredictedPrint& print);
   double height_mm(std::size_t k) const { return k == 0 ? p_.first_layer_mm : p_.layer_mm; }
-  double top_mm(std::size_t k) const {
-    return plate_mm_ + p_.first_layer_mm + static_cast<double>(k) * p_.layer_mm;
-  }
+  double top_mm(std::size_t k) const { return plate_mm_ + p_.first_layer_mm + static_cast<double>(k) * p_.layer_mm; }
 
   const PrintProfile& p_;
   double plate_mm_, depth_mm_ = 0, skin_mm_ = 0, spacing_mm_ = 0;
@@ -141,7 +144,8 @@ Polygons Prediction::hollow_skin(std::size_t k, int step, int count) {
 Polygons Prediction::skin(std::size_t k) {
   const Layer& layer = layers_[k];
   if (p_.infill_ratio == 0 && !p_.ensures_shell_thickness)
-    return regions_.opened(regions_.both(hollow_skin(k, 1, p_.top_layers), hollow_skin(k, -1, p_.bottom_layers)), p_.external_width_mm);
+    return regions_.opened(regions_.both(hollow_skin(k, 1, p_.top_layers), hollow_skin(k, -1, p_.bottom_layers)),
+                           p_.external_width_mm);
   const Polygons inner = regions_.common(beyond(k, 1, p_.top_layers), beyond(k, -1, p_.bottom_layers));
   const Polygons solid = regions_.less(layer.core, inner);
   if (p_.ensures_shell_thickness) return regions_.opened(solid, narrow_shell * spacing_mm_);
@@ -169,11 +173,13 @@ void Prediction::find_solid(std::size_t k) {
 void Prediction::add(std::size_t k, PredictedPrint& print) {
   const Layer& layer = layers_[k];
   const double height = height_mm(k), z_mm = top_mm(k) - height / 2;
-  const PlaneMoments ring = plane_moments_of(regions_.less(regions_.inset(layer.outline, skin_mm_), regions_.inset(layer.outline, depth_mm_)));
+  const PlaneMoments ring = plane_moments_of(
+      regions_.less(regions_.inset(layer.outline, skin_mm_), regions_.inset(layer.outline, depth_mm_)));
   print.walls += layer_of(ring, p_.flow_ratio * height, z_mm);
   print.solid_infill += layer_of(plane_moments_of(layer.solid), p_.flow_ratio * height, z_mm);
   if (p_.thick_bridges && k > 0 && !layer.solid.empty()) {
-    const Polygons held = p_.infill_ratio >= 1 ? layers_[k - 1].outline : regions_.less(layers_[k - 1].outline, layers_[k - 1].sparse);
+    const Polygons held =
+        p_.infill_ratio >= 1 ? layers_[k - 1].outline : regions_.less(layers_[k - 1].outline, layers_[k - 1].sparse);
     const Polygons bridge = regions_.opened(regions_.less(layer.solid, held), narrow_beads * p_.nozzle_mm);
     const double d = p_.nozzle_mm, thickness_mm = std::numbers::pi / 4 * d * d / (d + 0.05);
     print.solid_infill += layer_of(plane_moments_of(bridge), p_.flow_ratio * (thickness_mm - height), z_mm);
@@ -207,14 +213,16 @@ Result<PredictedPrint> Prediction::run(const Slices& slices, const Job& job) {
 
 std::vector<Region> PredictedPrint::body(double density_g_per_cm3) const {
   std::vector<Region> body;
-  for (const auto& [moments, error_ratio] : {std::pair{walls, 0.02}, std::pair{solid_infill, 0.02}, std::pair{sparse_infill, 0.15}})
+  for (const auto& [moments, error_ratio] :
+       {std::pair{walls, 0.02}, std::pair{solid_infill, 0.02}, std::pair{sparse_infill, 0.15}})
     if (moments.volume_mm3 > 0) body.push_back({moments, density_g_per_cm3, error_ratio});
   return body;
 }
 
 Result<PredictedPrint> predict_print(const PrintedSolid& printed, const PrintProfile& profile, const Job& job) {
   assert(find_problem(profile).empty());
-  const auto slices = cut_slices(printed, profile.layer_mm, job.part(0, 0.1), profile.first_layer_mm - profile.layer_mm);
+  const auto slices =
+      cut_slices(printed, profile.layer_mm, job.part(0, 0.1), profile.first_layer_mm - profile.layer_mm);
   if (!slices) return tl::unexpected(slices.error());
   return Prediction(profile, printed).run(*slices, job.part(0.1, 1));
 }

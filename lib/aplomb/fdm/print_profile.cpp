@@ -32,7 +32,8 @@ Settings settings_in_lines(std::string_view text) {
     text.remove_prefix(std::min(text.size(), line.size() + 1));
     const std::size_t equals = line.find('=');
     if (equals == line.npos || equals > 80) continue;
-    settings.insert_or_assign(std::string(trimmed(line.substr(0, equals))), std::string(trimmed(line.substr(equals + 1))));
+    settings.insert_or_assign(std::string(trimmed(line.substr(0, equals))),
+                              std::string(trimmed(line.substr(equals + 1))));
   }
   return settings;
 }
@@ -65,7 +66,8 @@ class Reader {
     if (value == "false" || value == "False") return 0;
     double parsed = 0;
     const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), parsed);
-    if (error == std::errc{} && std::isfinite(parsed)) return end < value.data() + value.size() && *end == '%' ? parsed / 100 * whole : parsed;
+    if (error == std::errc{} && std::isfinite(parsed))
+      return end < value.data() + value.size() && *end == '%' ? parsed / 100 * whole : parsed;
     if (problem_.empty()) problem_ = fmt::format("{} is '{}', which is no number", name, value);
     return otherwise;
   }
@@ -99,13 +101,16 @@ PrintProfile prusaslicer_profile(Reader& r) {
   p.infill_width_mm = width_of(r, "infill_extrusion_width", p.layer_mm, p.nozzle_mm);
   p.solid_width_mm = width_of(r, "solid_infill_extrusion_width", p.layer_mm, p.nozzle_mm);
   p.top_layers = layers_of(r.number("top_solid_layers", 3), r.number("top_solid_min_thickness", 0), p.layer_mm);
-  p.bottom_layers = layers_of(r.number("bottom_solid_layers", 3), r.number("bottom_solid_min_thickness", 0), p.layer_mm);
+  p.bottom_layers =
+      layers_of(r.number("bottom_solid_layers", 3), r.number("bottom_solid_min_thickness", 0), p.layer_mm);
   p.infill_ratio = r.number("fill_density", 0.2);
   if (!r.text("fill_density", "20%").ends_with('%') && p.infill_ratio > 1) p.infill_ratio /= 100;
   p.infill_pattern = r.text("fill_pattern", "stars");
   const double gap_mm = 1 - std::numbers::pi / 4;  // of a layer, between beads with round sides
-  const double solid_spacing_mm = p.solid_width_mm - gap_mm * p.layer_mm, spacing_mm = p.perimeter_width_mm - gap_mm * p.layer_mm;
-  p.infill_overlap_mm = r.number("infill_overlap", 0.25 * (spacing_mm + solid_spacing_mm) / 2, (spacing_mm + solid_spacing_mm) / 2);
+  const double solid_spacing_mm = p.solid_width_mm - gap_mm * p.layer_mm,
+               spacing_mm = p.perimeter_width_mm - gap_mm * p.layer_mm;
+  p.infill_overlap_mm =
+      r.number("infill_overlap", 0.25 * (spacing_mm + solid_spacing_mm) / 2, (spacing_mm + solid_spacing_mm) / 2);
   p.solid_below_mm2 = r.number("solid_infill_below_area", 70);
   p.ensures_shell_thickness = r.number("ensure_vertical_shell_thickness", 0) > 0;
   p.thick_bridges = r.number("thick_bridges", 1) > 0;
@@ -126,10 +131,12 @@ PrintProfile cura_profile(Reader& r) {
   p.infill_width_mm = r.number("infill_line_width", line_mm);
   p.solid_width_mm = r.number("skin_line_width", line_mm);
   const double thickness_mm = r.number("wall_thickness", 2 * line_mm);
-  p.perimeters = static_cast<int>(r.number("wall_line_count", std::round(1 + (thickness_mm - p.external_width_mm) / p.perimeter_width_mm)));
+  p.perimeters = static_cast<int>(
+      r.number("wall_line_count", std::round(1 + (thickness_mm - p.external_width_mm) / p.perimeter_width_mm)));
   const double skin_mm = r.number("top_bottom_thickness", 0.8);
   p.top_layers = static_cast<int>(r.number("top_layers", layers_of(1, r.number("top_thickness", skin_mm), p.layer_mm)));
-  p.bottom_layers = static_cast<int>(r.number("bottom_layers", layers_of(1, r.number("bottom_thickness", skin_mm), p.layer_mm)));
+  p.bottom_layers =
+      static_cast<int>(r.number("bottom_layers", layers_of(1, r.number("bottom_thickness", skin_mm), p.layer_mm)));
   p.infill_ratio = r.number("infill_sparse_density", 20) / 100;
   p.infill_pattern = r.text("infill_pattern", "grid");
   p.infill_overlap_mm = r.number("infill_overlap_mm", r.number("infill_overlap", 10) / 100 * p.infill_width_mm);
@@ -145,15 +152,17 @@ PrintProfile cura_profile(Reader& r) {
 
 std::string find_problem(const PrintProfile& p) {
   for (const auto& [name, value] :
-       {std::pair{"layer_mm", p.layer_mm}, std::pair{"first_layer_mm", p.first_layer_mm}, std::pair{"nozzle_mm", p.nozzle_mm},
-        std::pair{"external_width_mm", p.external_width_mm}, std::pair{"perimeter_width_mm", p.perimeter_width_mm},
-        std::pair{"infill_width_mm", p.infill_width_mm}, std::pair{"solid_width_mm", p.solid_width_mm},
-        std::pair{"flow_ratio", p.flow_ratio}})
+       {std::pair{"layer_mm", p.layer_mm}, std::pair{"first_layer_mm", p.first_layer_mm},
+        std::pair{"nozzle_mm", p.nozzle_mm}, std::pair{"external_width_mm", p.external_width_mm},
+        std::pair{"perimeter_width_mm", p.perimeter_width_mm}, std::pair{"infill_width_mm", p.infill_width_mm},
+        std::pair{"solid_width_mm", p.solid_width_mm}, std::pair{"flow_ratio", p.flow_ratio}})
     if (!(value > 0 && value < 100)) return fmt::format("{} is {} but must be above 0 and below 100", name, value);
   if (!(p.infill_ratio >= 0 && p.infill_ratio <= 1))
     return fmt::format("infill_ratio is {} but must be from 0 to 1", p.infill_ratio);
-  if (p.perimeters < 0 || p.perimeters > 1000) return fmt::format("perimeters is {} but must be from 0 to 1000", p.perimeters);
-  if (!(p.density_g_per_cm3 >= 0)) return fmt::format("density_g_per_cm3 is {} but must be at least 0", p.density_g_per_cm3);
+  if (p.perimeters < 0 || p.perimeters > 1000)
+    return fmt::format("perimeters is {} but must be from 0 to 1000", p.perimeters);
+  if (!(p.density_g_per_cm3 >= 0))
+    return fmt::format("density_g_per_cm3 is {} but must be at least 0", p.density_g_per_cm3);
   return {};
 }
 
@@ -162,10 +171,12 @@ Result<PrintProfile> parse_profile(std::string_view text) {
   const bool is_json = first != text.npos && text[first] == '{';
   const Settings settings = is_json ? settings_in_json(text) : settings_in_lines(text);
   Reader reader(settings);
-  const bool is_cura = reader.has("infill_sparse_density") || reader.has("wall_line_count") || reader.has("layer_height_0");
+  const bool is_cura =
+      reader.has("infill_sparse_density") || reader.has("wall_line_count") || reader.has("layer_height_0");
   if (!is_cura && !(reader.has("perimeters") && reader.has("fill_density")))
-    return fail(ErrorCode::unusable_input, "no profile of PrusaSlicer (perimeters, fill_density) and none of Cura (wall_line_count, "
-                                           "infill_sparse_density)");
+    return fail(ErrorCode::unusable_input,
+                "no profile of PrusaSlicer (perimeters, fill_density) and none of Cura (wall_line_count, "
+                "infill_sparse_density)");
   const PrintProfile profile = is_cura ? cura_profile(reader) : prusaslicer_profile(reader);
   const std::string problem = reader.problem().empty() ? find_problem(profile) : reader.problem();
   if (!problem.empty()) return fail(ErrorCode::unusable_input, problem);
@@ -175,7 +186,8 @@ Result<PrintProfile> parse_profile(std::string_view text) {
 Result<PrintProfile> read_profile(const std::filesystem::path& path) {
   constexpr std::streamoff most_bytes = 1 << 20;
   std::ifstream file(path, std::ios::binary | std::ios::ate);
-  if (!file || std::filesystem::is_directory(path)) return fail(ErrorCode::file_system, path.string() + ": the profile cannot be read");
+  if (!file || std::filesystem::is_directory(path))
+    return fail(ErrorCode::file_system, path.string() + ": the profile cannot be read");
   const std::streamoff size = file.tellg();
   file.seekg(std::max<std::streamoff>(0, size - most_bytes));  // a G-code's settings are its end
   std::ostringstream text;

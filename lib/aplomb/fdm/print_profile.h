@@ -16,22 +16,22 @@ struct PrintProfile {
   int perimeters = 3;
   double external_width_mm = 0.45, perimeter_width_mm = 0.45, infill_width_mm = 0.45, solid_width_mm = 0.45;
   int top_layers = 3, bottom_layers = 3;
-  double infill_ratio = 0.2;         ///< in [0, 1]
+  double infill_ratio = 0.2;  ///< in [0, 1]
   std::string infill_pattern = "stars";
-  double infill_overlap_mm = 0.1;    ///< of infill over the walls, laid twice
-  double solid_below_mm2 = 70;       ///< a core with a smaller section is filled
+  double infill_overlap_mm = 0.1;  ///< of infill over the walls, laid twice
+  double solid_below_mm2 = 70;     ///< a core with a smaller section is filled
   bool ensures_shell_thickness = false;
   bool thick_bridges = true;
   double flow_ratio = 1;
-  double density_g_per_cm3 = 0;      ///< of the filament; 0: not said
+  double density_g_per_cm3 = 0;  ///< of the filament; 0: not said
 };
 
 /// A sentence that names the field, its value and its range, or nothing.
 std::string find_problem(const PrintProfile& profile);
 
-/// Reads a profile: an .ini of PrusaSlicer or SuperSlicer, the settings in the comments of its G-code, or Cura's settings as
-/// JSON ({"layer_height": 0.2}) or "layer_height = 0.2" lines (.inst.cfg, .curaprofile's parts). What is not said is the
-/// slicer's own default.
+/// Reads a profile: an .ini of PrusaSlicer or SuperSlicer, the settings in the comments of its G-code, or Cura's
+/// settings as JSON ({"layer_height": 0.2}) or "layer_height = 0.2" lines (.inst.cfg, .curaprofile's parts). What is
+/// not said is the slicer's own default.
 ///
 /// \return file_system; unusable_input for what holds no such settings, or one that makes no sense, by its name.
 Result<PrintProfile> read_profile(const std::filesystem::path& path);
