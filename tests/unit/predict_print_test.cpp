@@ -72,8 +72,8 @@ TEST(PredictPrint, TranslationMovesIt) {
   EXPECT_NEAR(norm(b.centroid_mm() - a.centroid_mm() - Vec3{100, -50, 7}), 0, 1e-2);
 }
 
-/// Over a slope of 45 degrees each layer is one layer's height shorter: with shells that keep their thickness the skin under
-/// the slope is three layers' worth wide, three fewer than without walls.
+/// Over a slope of 45 degrees each layer is one layer's height shorter: with shells that keep their thickness the skin
+/// under the slope is three layers' worth wide, three fewer than without walls.
 TEST(PredictPrint, SlopedSkinsAreAsWideAsTheyAreThick) {
   PrintProfile p = profile_of(0.1);
   p.bottom_layers = 0;

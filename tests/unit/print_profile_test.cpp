@@ -40,10 +40,12 @@ TEST(PrintProfile, IsTheSameInAnIniAndInTheCommentsOfGcode) {
 }
 
 TEST(PrintProfile, IsTheSameAsCurasJsonAndLines) {
-  const auto json = parse_profile(R"({"wall_line_count": 3, "layer_height": 0.1, "layer_height_0": "0.3", "line_width": 0.35,
+  const auto json =
+      parse_profile(R"({"wall_line_count": 3, "layer_height": 0.1, "layer_height_0": "0.3", "line_width": 0.35,
                                       "infill_sparse_density": 40, "top_bottom_thickness": 0.6, "infill_pattern": "cubic"})");
-  const auto lines = parse_profile("[values]\nwall_line_count = 3\nlayer_height = 0.1\nlayer_height_0 = 0.3\nline_width = 0.35\n"
-                                   "infill_sparse_density = 40\ntop_bottom_thickness = 0.6\ninfill_pattern = cubic\n");
+  const auto lines = parse_profile(
+      "[values]\nwall_line_count = 3\nlayer_height = 0.1\nlayer_height_0 = 0.3\nline_width = 0.35\n"
+      "infill_sparse_density = 40\ntop_bottom_thickness = 0.6\ninfill_pattern = cubic\n");
   ASSERT_TRUE(json && lines);
   for (const PrintProfile& p : {*json, *lines}) {
     EXPECT_EQ(p.rules, PrintProfile::Rules::cura);
