@@ -12,8 +12,9 @@ class ProfileFlag : public CommandLine {
  protected:
   /// A profile of PrusaSlicer with thin walls and little infill.
   std::string sparse() const {
-    std::ofstream(path("sparse.ini")) << "perimeters = 2\nfill_density = 10%\nlayer_height = 0.2\nfirst_layer_height = 0.2\n"
-                                         "top_solid_layers = 4\nbottom_solid_layers = 4\nfilament_density = 1.3\n";
+    std::ofstream(path("sparse.ini"))
+        << "perimeters = 2\nfill_density = 10%\nlayer_height = 0.2\nfirst_layer_height = 0.2\n"
+           "top_solid_layers = 4\nbottom_solid_layers = 4\nfilament_density = 1.3\n";
     return path("sparse.ini");
   }
   nlohmann::json report() const { return nlohmann::json::parse(text_of("r.json")); }
@@ -31,8 +32,8 @@ TEST_F(ProfileFlag, CheckMeasuresTheModelAsItIsSliced) {
 }
 
 TEST_F(ProfileFlag, StandWarnsWhereAVoidAddsMassAndJudgesTheSlicedPrint) {
-  const std::string stand = "stand " + toppling() + " --tip 6deg --report " + path("r.json") + " -o " + path("out.stl") +
-                            " --profile " + sparse();
+  const std::string stand = "stand " + toppling() + " --tip 6deg --report " + path("r.json") + " -o " +
+                            path("out.stl") + " --profile " + sparse();
   EXPECT_EQ(run(stand), 3) << text_of("stderr");
   EXPECT_FALSE(fs::exists(path("out.stl")));
   EXPECT_EQ(run(stand + " --best-effort"), 3);
@@ -47,7 +48,8 @@ TEST_F(ProfileFlag, RefusesWhatIsNoProfile) {
   EXPECT_EQ(run(check + path("none.ini")), 2);
   EXPECT_EQ(run(check + path("leaning.stl")), 2);
   EXPECT_NE(text_of("stderr").find("no profile of PrusaSlicer"), std::string::npos) << text_of("stderr");
-  EXPECT_EQ(run("stand " + path("leaning.stl") + " -o " + path("o.stl") + " --save-job j.json --profile " + sparse()), 1);
+  EXPECT_EQ(run("stand " + path("leaning.stl") + " -o " + path("o.stl") + " --save-job j.json --profile " + sparse()),
+            1);
 }
 
 }  // namespace
