@@ -10,20 +10,33 @@
 #include "aplomb/advice.h"
 #include "aplomb/attempt.h"
 #include "aplomb/balance/attachments.h"
+#include "aplomb/fdm/predict_print.h"
 #include "aplomb/holes/drill.h"
 
 namespace aplomb {
 namespace {
 
-std::array<Region, 1> uniform_body(const Moments& body, const StandOptions& options) {
+std::vector<Region> uniform_body(const Moments& body, const StandOptions& options) {
   return {Region{body, options.density_g_per_cm3, 0.02}};
 }
 
-Result<std::vector<PoseMeasure>> measure_poses(const TriangleMesh& outer, const Moments& body,
+/// The solid as it is sliced, or as one piece.
+Result<std::vector<Region>> body_of(const SolidMesh& solid, const Moments& moments, const StandOptions& options,
+                                    const Job& job) {
+  if (!options.profile) return uniform_body(moments, options);
+  const auto print = predict_print(printed_solid(solid), *options.profile, job);
+  if (!print) return tl::unexpected(print.error());
+  const double told = options.profile->density_g_per_cm3;
+  auto body = print->body(told > 0 ? told : options.density_g_per_cm3);
+  if (body.empty()) return fail(ErrorCode::unusable_input, "with this profile nothing of the model is printed");
+  return body;
+}
+
+Result<std::vector<PoseMeasure>> measure_poses(const TriangleMesh& outer, const std::vector<Region>& body,
                                                const StandOptions& options) {
   std::vector<PoseMeasure> measures;
   for (const Pose& pose : options.poses) {
-    auto measure = measure_pose(outer, uniform_body(body, options), pose);
+    auto measure = measure_pose(outer, body, pose);
     if (!measure) return tl::unexpected(measure.error());
     measures.push_back(std::move(*measure));
   }
@@ -39,8 +52,10 @@ void note_loose_attachments(const TriangleMesh& mesh, const std::vector<Pose>& p
 }
 
 /// The report of the solid as it came.
-Result<Report> begin_report(const Input& input, const StandOptions& options) {
-  auto before = measure_poses(input.solid.mesh(), input.moments, options);
+Result<Report> begin_report(const Input& input, const StandOptions& options, const Job& job) {
+  const auto body = body_of(input.solid, input.moments, options, job);
+  if (!body) return tl::unexpected(body.error());
+  auto before = measure_poses(input.solid.mesh(), *body, options);
   if (!before) return tl::unexpected(before.error());
   Report report;
   report.version = APLOMB_VERSION;
@@ -53,6 +68,28 @@ Result<Report> begin_report(const Input& input, const StandOptions& options) {
   report.mesh =
       MeshFigures{input.repair.outer_unchanged, true, 0, input.solid.voids(), input.solid.mesh().triangles.size()};
   return report;
+}
+
+double mass_g(const PoseMeasure& measure) {
+  if (const auto* standing = std::get_if<Standing>(&measure)) return standing->stability.mass_g;
+  return std::get<Hanging>(measure).mass_g;
+}
+
+/// What sparse infill makes of a void.
+void note_sliced(Report& report) {
+  const PoseReport& pose = report.poses.front();
+  const double before_g = mass_g(pose.before), after_g = mass_g(*pose.after);
+  if (after_g > before_g)
+    report.hints.push_back(
+        fmt::format("sliced with this profile it becomes heavier: {:.4g} g instead of {:.4g}, for the slicer puts "
+                    "skins round voids; "
+                    "at 100 % infill they make it lighter",
+                    after_g, before_g));
+  if (report.outcome == Outcome::best_effort)
+    report.hints.emplace_back(
+        "the angle is that of the sliced print, while carving takes the model as solid: slice it at 100 % infill, or "
+        "ask "
+        "for a larger angle");
 }
 
 CarvingFigures carving_figures(const Carving& carving, const Input& input, const JointProblem& joint,
@@ -138,7 +175,8 @@ Result<StandRun> finish(StandRun run, const Input& shaped, std::optional<Attempt
     run.shell = Shell{shaped.solid.mesh(), shaped.solid.mesh().triangles.size(), 0, 0, 0};
   }
   if (view && run.shell) view("5-shell", run.shell->mesh);
-  auto after = measure_poses(shaped.solid.mesh(), run.carving ? run.carving->body : shaped.moments, options);
+  const Moments& kept = run.carving ? run.carving->body : shaped.moments;
+  auto after = measure_poses(shaped.solid.mesh(), uniform_body(kept, options), options);
   if (!after) return tl::unexpected(after.error());
   set_after(report, std::move(*after), kind_of(options));
   const bool reaches = run.carving ? run.carving->reaches : all_hold(report);
@@ -156,7 +194,7 @@ Result<StandRun> finish(StandRun run, const Input& shaped, std::optional<Attempt
 
 Result<StandRun> stand(const Input& input, const StandOptions& options, const Job& job, const StageViewer& view) {
   assert(find_problem(options).empty());
-  auto begun = begin_report(input, options);
+  auto begun = begin_report(input, options, job.part(0, 0.05));
   if (!begun) return tl::unexpected(begun.error());
   StandRun run{std::nullopt, std::nullopt, {}, {}, std::move(*begun)};
   Report& report = run.report;
@@ -197,7 +235,7 @@ Result<std::vector<TriangleMesh>> hole_plugs(const StandRun& run, const Job& job
 Result<Report> check(const Input& input, const StandOptions& options, const Job& job) {
   assert(find_problem(options).empty());
   if (!job.report(0, "check")) return cancelled();
-  auto report = begin_report(input, options);
+  auto report = begin_report(input, options, job);
   if (report) report->outcome = all_hold(*report) ? Outcome::already_stands : Outcome::falls;
   return report;
 }
@@ -222,13 +260,16 @@ Result<Report> measure_output(const TriangleMesh& written, const Input& input, c
   if (!solid->solid) return fail(ErrorCode::internal, "the shell is no solid: " + describe(solid->defects));
   figures.voids = solid->solid->voids();
   report.mesh = figures;
-  auto after = measure_poses(written, solid->solid->moments(), options);
+  const auto body = body_of(*solid->solid, solid->solid->moments(), options, job.part(0.4, 0.5));
+  if (!body) return tl::unexpected(body.error());
+  auto after = measure_poses(written, *body, options);
   if (!after) return tl::unexpected(after.error());
   set_after(report, std::move(*after), kind_of(options));
-  auto judgement = judge_output(written, input, run, options, job.part(0.4, 1));
+  auto judgement = judge_output(written, input, run, options, job.part(0.5, 1));
   if (!judgement) return tl::unexpected(judgement.error());
   report.judgement = std::move(*judgement);
   if (report.carving || report.deformation) report.outcome = all_hold(report) ? Outcome::stands : Outcome::best_effort;
+  if (options.profile) note_sliced(report);
   return report;
 }
 

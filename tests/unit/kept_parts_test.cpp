@@ -40,6 +40,21 @@ TEST(KeptParts, only_ever_take_from_what_may_be_carved) {
   EXPECT_LT(lower.moments().first_mm4.z / lower.moments().volume_mm3, 20);
 }
 
+/// What another plane opens beside a part that is solid now is as closed as any void.
+TEST(WithoutPart, leaves_a_closed_surface_to_whatever_is_carved_next) {
+  const SolidVolume volume = volume_of(test::box({0, 0, 0}, {40, 40, 40}));
+  const double all = void_mm3(volume);
+  for (double cut_mm = 17; cut_mm < 21; cut_mm += 0.5) {
+    SCOPED_TRACE(cut_mm);
+    const VoidField upper = cut_void(volume, {cut_mm, {-1, 0, 0}}, 0).field;  // carved where x > cut_mm
+    const SolidVolume lower = without_part(volume, upper, {30, 20, 20}, 1e9);
+    const VoidField rest = cut_void(lower, carve_all, 0).field;
+    EXPECT_NEAR(rest.moments().volume_mm3 + upper.moments().volume_mm3, all, 0.03 * all);
+    const TriangleMesh mesh = marching_tetrahedra(boundary_cells(rest), rest.frame().voxel_mm, rest.frame().origin_mm);
+    EXPECT_TRUE(check_solid(mesh)->solid);
+  }
+}
+
 TEST(FlatCeilings, are_found_where_a_void_has_them_and_wide_where_a_circle_fits) {
   const TriangleMesh outer = test::box({-40, -40, 0}, {40, 40, 60});
   const TriangleMesh mesh = test::with_void(outer, test::box({-20, -5, 10}, {20, 5, 30}));

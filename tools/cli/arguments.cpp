@@ -52,7 +52,7 @@ Result<JobFile> job_of(const JobOverrides& overrides) {
   return job;
 }
 
-/// The flags of every command but `run`.
+/// The flags of every command that reads a model.
 void add_flags(Command command, CLI::App* app, Arguments& a, StandingPose& standing, HangingPose& hanging) {
   const bool carves = command == Command::stand || command == Command::hang;
   const bool judges = carves || command == Command::validate;
@@ -64,10 +64,17 @@ void add_flags(Command command, CLI::App* app, Arguments& a, StandingPose& stand
     add_carving_flags(app, a);
     add_reshaping_flags(app, a);
   }
+  if (carves || command == Command::check) add_profile_flag(app, a);
   if (command != Command::poses) app->add_option("--html", a.job.html, "write the report as a page for people");
   if (carves || command == Command::check)
     app->add_option("--picture", a.job.picture, "draw it before and after, and cut open, as PNG");
   add_run_flags(app, a);
+}
+
+Parsed finish_verify(Arguments a) {
+  for (const std::string& problem : {find_problem(a.verify.gcode), find_problem(a.verify.options)})
+    if (!problem.empty()) return {std::nullopt, usage_error(problem)};
+  return {std::move(a), 0};
 }
 
 }  // namespace
@@ -87,13 +94,15 @@ Parsed parse_arguments(int argc, char** argv) {
       {Command::hang, app.add_subcommand("hang", "carve a model so that it hangs level from one or two points")},
       {Command::poses, app.add_subcommand("poses", "list the ways a model can rest, and how likely each is")},
       {Command::validate, app.add_subcommand("validate", "judge whether a mesh prints, as it is")},
+      {Command::verify, app.add_subcommand("verify", "measure what a G-code file prints, and whether that stands")},
       {Command::run, app.add_subcommand("run", "run a job file")}};
   for (const auto& [command, sub] : commands)
     if (command == Command::run) add_job_flags(sub, overrides, a);
+    else if (command == Command::verify) add_verify_flags(sub, a);
     else add_flags(command, sub, a, standing, hanging);
   app.footer(
       "Exit: 0 stands, or prints; 1 usage; 2 input unusable; 3 cannot stand; 4 cancelled; 5 over budget; 6 does not "
-      "print; 7 internal.");
+      "print, or not as told; 7 internal.");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -101,7 +110,10 @@ Parsed parse_arguments(int argc, char** argv) {
   }
   for (const auto& [command, sub] : commands)
     if (sub->parsed()) a.command = command, a.given = flags_given(*sub);
+  if (a.command == Command::verify) return finish_verify(std::move(a));
   a.job.input.read.memory_bytes = a.job.options.memory_bytes;
+  if (!a.profile.empty() && !a.save_job.empty())
+    return {std::nullopt, usage_error("a job file cannot hold --profile yet: leave --save-job or --profile out")};
   if (a.command == Command::hang) a.job.poses.front().pose.way = hanging;
   else a.job.poses.front().pose.way = standing;
   a.job.input.hint_at_resting = a.command == Command::check || a.command == Command::stand;

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "aplomb/gcode/printed_plate.h"
+#include "aplomb/gcode/verify_print.h"
 #include "aplomb/job/job_file.h"
 
 namespace aplomb::cli {
@@ -17,12 +19,22 @@ enum class Command {
   poses,     ///< list the ways it can rest
   run,       ///< a job file
   validate,  ///< judge whether it prints
+  verify,    ///< measure what G-code prints
+};
+
+/// What `aplomb verify` was asked for.
+struct VerifyArguments {
+  std::filesystem::path program, expect, report;
+  GcodeOptions gcode;
+  VerifyOptions options;
 };
 
 /// What the command line asked for.
 struct Arguments {
   Command command = Command::check;
-  JobFile job;                     ///< without an output the poses are only checked
+  JobFile job;  ///< without an output the poses are only checked
+  VerifyArguments verify;
+  std::filesystem::path profile;   ///< how it is sliced; empty: solid
   std::filesystem::path save_job;  ///< where to write `job`; empty: nowhere
   bool quiet = false;
   bool is_progress_json = false;                           ///< told as lines of JSON, also where there is no terminal

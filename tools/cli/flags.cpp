@@ -115,6 +115,12 @@ void add_progress_flag(CLI::App* app, Arguments& a) {
       "auto: a line on a terminal (default); json: lines {\"progress\": 0.25, \"stage\": \"carve\"} on standard error");
 }
 
+void add_profile_flag(CLI::App* app, Arguments& a) {
+  app->add_option(
+      "--profile", a.profile,
+      "measure it as it is sliced: an .ini of PrusaSlicer, its G-code, or Cura's settings as JSON or lines");
+}
+
 void add_run_flags(CLI::App* app, Arguments& a) {
   add_choice(
       app, "--material", {"pla", "petg", "abs", "asa", "tpu", "resin", "pa12"},

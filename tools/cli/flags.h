@@ -30,6 +30,12 @@ void add_judging_flags(CLI::App* app, Arguments& a);
 /// How progress is told.
 void add_progress_flag(CLI::App* app, Arguments& a);
 
+/// G-code, what is expected of it, and its filaments.
+void add_verify_flags(CLI::App* app, Arguments& a);
+
+/// The slicer's profile by which it is measured.
+void add_profile_flag(CLI::App* app, Arguments& a);
+
 /// Material, report, threads, memory, quiet: what every run has.
 void add_run_flags(CLI::App* app, Arguments& a);
 

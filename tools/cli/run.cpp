@@ -2,12 +2,9 @@
 
 #include <fmt/format.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
-#include <span>
 
 #include "aplomb/balance/landing.h"
 #include "aplomb/core/stage_clock.h"
@@ -22,45 +19,11 @@
 #include "comparison.h"
 #include "interrupt.h"
 #include "page.h"
+#include "run_verify.h"
+#include "talk.h"
 
 namespace aplomb::cli {
 namespace {
-
-int exit_code(Ending ending) { return static_cast<int>(ending); }
-
-int report_error(const Error& error) {
-  fmt::print(stderr, "aplomb: {}\n", error.message);
-  return exit_code(ending_of(error));
-}
-
-/// A line that is written over, on a terminal, and wiped at the end; or a line of JSON each time, for programs.
-class ProgressLine {
- public:
-  ProgressLine(bool shown, bool is_json)
-      : is_json_(is_json), shown_(is_json || (shown && isatty(STDERR_FILENO) == 1)) {}
-  ~ProgressLine() {
-    if (shown_ && !is_json_) fmt::print(stderr, "\r\033[K");
-  }
-  Job job() {
-    return Job([this](double fraction, std::string_view stage) {
-      show(fraction, stage);
-      return !interrupted();
-    });
-  }
-
- private:
-  void show(double fraction, std::string_view stage) {
-    const auto now = std::chrono::steady_clock::now();
-    if (!shown_ || now - last_ < std::chrono::milliseconds(50)) return;
-    last_ = now;
-    if (is_json_) fmt::print(stderr, "{{\"progress\": {:.3f}, \"stage\": \"{}\"}}\n", fraction, stage);
-    else fmt::print(stderr, "\r\033[K{:3.0f} % {}", 100 * fraction, stage);
-  }
-
-  bool is_json_;
-  bool shown_;
-  std::chrono::steady_clock::time_point last_{};
-};
 
 StageViewer dump_into(const std::filesystem::path& folder) {
   if (folder.empty()) return {};
@@ -78,10 +41,6 @@ double peak_memory_mb() {
   getrusage(RUSAGE_SELF, &own);
   getrusage(RUSAGE_CHILDREN, &children);
   return static_cast<double>(std::max(own.ru_maxrss, children.ru_maxrss)) / 1024;
-}
-
-Result<void> write_text(const std::filesystem::path& path, const std::string& text) {
-  return write_file_atomically(path, std::as_bytes(std::span(text)), remember_temp_file);
 }
 
 /// Says it on standard output when it is the answer, and nothing else is written there.
@@ -248,6 +207,10 @@ Result<void> save_job(const Arguments& a) {
 }  // namespace
 
 int run(const Arguments& a) {
+  if (a.command == Command::verify) {
+    ProgressLine progress(!a.quiet, a.is_progress_json);
+    return run_verify(a, progress.job());
+  }
   const JobFile& asked = a.job;
   for (const std::filesystem::path& file : {asked.output, asked.plugs})
     if (!file.empty() && file != "-")
@@ -260,7 +223,12 @@ int run(const Arguments& a) {
   const auto input = load_solid(asked.model, asked.input, job.part(0, 0.3), dump_into(asked.dump));
   if (!input) return report_error(input.error());
   if (a.command == Command::poses) return list_poses(a, *input);
-  const StandOptions options = stand_options(asked, input->solid.box().size().z);
+  StandOptions options = stand_options(asked, input->solid.box().size().z);
+  if (!a.profile.empty()) {
+    const auto profile = read_profile(a.profile);
+    if (!profile) return report_error(profile.error());
+    options.profile = *profile;
+  }
   return asked.output.empty() ? run_check(a, *input, options, job.part(0.3, 1))
                               : run_stand(a, *input, options, job.part(0.3, 1));
 }

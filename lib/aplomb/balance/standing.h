@@ -7,6 +7,7 @@
 #include "aplomb/balance/pedestal.h"
 #include "aplomb/balance/stability.h"
 #include "aplomb/balance/support_polygon.h"
+#include "aplomb/core/vec.h"
 
 namespace aplomb {
 
@@ -15,6 +16,7 @@ struct Standing {
   SupportPolygon support;
   Stability stability;
   std::array<ContactVariant, 3> variants;
+  Box3 box_mm;                       ///< of the surface
   std::optional<Pedestal> pedestal;  ///< set when the tip angle is below pose.required_tip_rad
 };
 

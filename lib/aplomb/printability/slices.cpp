@@ -164,9 +164,9 @@ PlaneMoments Slice::moments() const {
   return sum;
 }
 
-Result<Slices> cut_slices(const PrintedSolid& printed, double layer_mm, const Job& job) {
+Result<Slices> cut_slices(const PrintedSolid& printed, double layer_mm, const Job& job, double raised_mm) {
   assert(layer_mm > 0);
-  const Planes planes{printed.solid.box().min.z, layer_mm};
+  const Planes planes{printed.solid.box().min.z + raised_mm, layer_mm};
   if (const Result<void> fits = check_budget(printed, planes); !fits) return tl::unexpected(fits.error());
   const std::size_t layers = planes.below(printed.solid.box().max.z);
   std::vector<Cutter> cutters;

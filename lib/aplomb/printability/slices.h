@@ -54,9 +54,10 @@ struct Slices {
 /// Loops follow the triangles, edge by edge: exact but for rounding of the crossing points, closed, and in an order
 /// that depends on the mesh alone. Loops of less than 1e-8 mm2 are dropped.
 ///
-/// \pre layer_mm > 0.
+/// All planes lie raised_mm higher: a first layer of another height raises those above it.
+/// \pre layer_mm > 0; raised_mm > -layer_mm / 2.
 /// \return over_budget for more than 50 million crossings or 200,000 layers; cancelled.
 /// \par Cost  O(triangles + crossings).
-Result<Slices> cut_slices(const PrintedSolid& printed, double layer_mm, const Job& job = {});
+Result<Slices> cut_slices(const PrintedSolid& printed, double layer_mm, const Job& job = {}, double raised_mm = 0);
 
 }  // namespace aplomb

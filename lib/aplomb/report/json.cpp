@@ -38,6 +38,7 @@ Json json(const Standing& standing) {
       {"robust_tip_deg", degrees(s.robust_tip_rad)},
       {"weak_edge",
        {{"from_mm", json(s.weak_edge_mm[0])}, {"to_mm", json(s.weak_edge_mm[1])}, {"heading", json(s.heading)}}},
+      {"box_mm", Json::array({json(standing.box_mm.min), json(standing.box_mm.max)})},
       {"support_polygon_mm", corners},
       {"support_area_mm2", standing.support.area_mm2()},
       {"support_width_mm", standing.support.width_mm()},

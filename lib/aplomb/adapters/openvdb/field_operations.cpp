@@ -36,6 +36,28 @@ Blocks field_blocks(const FieldTree& field) {
 
 namespace {
 
+/// Whether a lattice point past the block's upper faces, which its cells have as corners, is positive.
+bool is_open_above(const FieldReader& reader, const Coord& origin) {
+  for (int i = 0; i <= leaf_size; ++i)
+    for (int j = 0; j <= leaf_size; ++j)
+      for (int k = std::max(i, j) == leaf_size ? 0 : leaf_size; k <= leaf_size; ++k)
+        if (reader.getValue(origin.offsetBy(i, j, k)) > 0) return true;
+  return false;
+}
+
+}  // namespace
+
+void split_tiles_at_the_rim(FieldTree& field) {
+  const FieldReader reader(field);
+  std::vector<Coord> split;
+  for (const Coord& origin : field_blocks(field).full)
+    if (is_open_above(reader, origin)) split.push_back(origin);
+  for (const Coord& origin : split)
+    field.addLeaf(std::make_unique<FieldLeaf>(origin, field.getValue(origin), false).release());
+}
+
+namespace {
+
 /// Moments of a block in units of the lattice.
 Moments block_moments(const FieldReader& reader, const Coord& origin) {
   const CornerValues corners = corner_values(reader, origin);

@@ -72,7 +72,9 @@ SolidVolume without_dropped(const SolidVolume& volume, const FieldTree& before, 
       if (leaf->getValue(n) < 0 && after.getValue(at) > 0) field->tree().setValueOnly(at, after.getValue(at));
     }
   for (const Coord& origin : adapters::field_blocks(before).full)
-    if (after.getValue(origin) > 0) field->tree().addTile(1, origin, field->background(), false);
+    if (after.getValue(origin) > 0)  // a leaf, for its cells may reach up to what is still carved
+      field->tree().addLeaf(std::make_unique<FieldLeaf>(origin, field->background(), false).release());
+  adapters::split_tiles_at_the_rim(field->tree());
   return SolidVolume(
       std::make_shared<SolidVolume::Impl>(SolidVolume::Impl{volume.frame(), volume.options(), std::move(field)}));
 }

@@ -53,6 +53,7 @@ SolidVolume without_part(const SolidVolume& volume, const VoidField& field, Vec3
          std::array<Coord, 6>{Coord{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}})
       reach(at + step);
   }
+  adapters::split_tiles_at_the_rim(region->tree());
   return SolidVolume(
       std::make_shared<SolidVolume::Impl>(SolidVolume::Impl{frame, volume.options(), std::move(region)}));
 }

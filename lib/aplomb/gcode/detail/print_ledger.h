@@ -1,0 +1,84 @@
+#pragma once
+
+#include <array>
+#include <compare>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "aplomb/gcode/detail/bead_hull.h"
+#include "aplomb/gcode/detail/brim_loops.h"
+#include "aplomb/gcode/detail/machine.h"
+#include "aplomb/gcode/feature.h"
+#include "aplomb/gcode/printed_plate.h"
+
+namespace aplomb::detail {
+
+/// How high the bead under the nozzle is, where the slicer does not say: layers are told by the heights at which
+/// material is laid down.
+class LayerHeights {
+ public:
+  /// \return the height of the layer whose top is at z_mm.
+  double at(double z_mm, std::optional<double> usual_mm);
+
+ private:
+  double top_mm_ = 0, height_mm_ = 0;
+};
+
+/// Sums up strokes: moments by object, feature and tool, and what of each object lies on the bed.
+class PrintLedger {
+ public:
+  explicit PrintLedger(const std::vector<Filament>& filaments) : filaments_(filaments) {}
+
+  /// Where the strokes that follow belong; an object without a name: none. \return false beyond 10,000 objects.
+  bool turn_to(std::optional<std::string_view> object, Feature feature);
+  /// Enters a bead of that height under the stroke.
+  void enter(const Stroke& stroke, double height_mm);
+
+  double filament_mm() const { return filament_mm_; }
+  /// What the sums come to: objects, and what is left out. Where the program names features, what comes before the
+  /// first is no object's.
+  void close(bool names_features, PrintedPlate& plate) const;
+
+ private:
+  struct Foot {
+    double top_mm = 1e300, height_mm = 0;  // of the lowest layer
+    BeadHull hull;
+    double area_mm2 = 0, length_mm = 0;  // of its beads: width x length
+  };
+  struct Object {
+    std::string name;
+    Box3 box_mm;
+    Foot foot;
+  };
+  /// Objects that have no label come last: what is named as the model's, and what has no name.
+  enum Nameless : std::size_t { nameless_model, nameless_unnamed, nameless_count };
+  struct Key {
+    std::size_t object;  // nameless ones from `labelled` on
+    Feature feature;
+    unsigned tool;
+    auto operator<=>(const Key&) const = default;
+  };
+  static constexpr std::size_t labelled = 10'000;
+
+  Object& object_at(std::size_t index) { return index < labelled ? objects_[index] : nameless_[index - labelled]; }
+  double volume_of(const Stroke& stroke) const;
+  void enter_model(const Stroke& stroke, double volume_mm3, double height_mm);
+  PrintedObject printed(std::size_t index) const;
+  void close_left_out(bool names_features, PrintedPlate& plate) const;
+
+  const std::vector<Filament>& filaments_;
+  std::vector<Object> objects_;
+  std::unordered_map<std::string, std::size_t> index_of_;
+  std::array<Object, nameless_count> nameless_;
+  std::map<Key, Moments> moments_;
+  BrimLoops brims_;
+  Key at_{labelled + nameless_unnamed, Feature::unnamed, 0};
+  Moments* slot_ = nullptr;  // of at_
+  double filament_mm_ = 0;
+};
+
+}  // namespace aplomb::detail

@@ -1,0 +1,47 @@
+#include "run_verify.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "aplomb/report/verification.h"
+#include "talk.h"
+
+namespace aplomb::cli {
+namespace {
+
+Result<ExpectedPrint> read_expected(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return fail(ErrorCode::file_system, path.string() + ": the report cannot be read");
+  std::ostringstream text;
+  text << file.rdbuf();
+  return expected_print(text.str()).map_error([&path](Error error) {
+    error.message = path.string() + ": " + error.message;
+    return error;
+  });
+}
+
+}  // namespace
+
+int run_verify(const Arguments& a, const Job& job) {
+  const VerifyArguments& asked = a.verify;
+  VerifyOptions options = asked.options;
+  if (!asked.expect.empty()) {
+    const auto expected = read_expected(asked.expect);
+    if (!expected) return report_error(expected.error());
+    options.expected = *expected;
+  }
+  auto plate = read_gcode(asked.program, asked.gcode, job);
+  if (!plate) return report_error(plate.error());
+  const auto verification = verify_print(std::move(*plate), options);
+  if (!verification) return report_error(verification.error());
+  if (!a.quiet) fmt::print(asked.report == "-" ? stderr : stdout, "{}", to_text(*verification));
+  if (!asked.report.empty())
+    if (const auto written = write_text(asked.report, to_json(*verification)); !written)
+      return report_error(written.error());
+  if (!verification->all_stand()) return exit_code(Ending::cannot_stand);
+  return exit_code(verification->all_as_told() ? Ending::stands : Ending::does_not_print);
+}
+
+}  // namespace aplomb::cli
