@@ -16,8 +16,8 @@ struct Blocks {
 };
 Blocks field_blocks(const FieldTree& field);
 
-/// Makes leaves of the active tiles with a cell that reaches up to a positive point beyond them, as raising points beside
-/// a tile leaves some.
+/// Makes leaves of the active tiles with a cell that reaches up to a positive point beyond them, as raising points
+/// beside a tile leaves some.
 void split_tiles_at_the_rim(FieldTree& field);
 
 /// The eight corner values of a cell of a block, corner c at (c & 1, c >> 1 & 1, c >> 2 & 1).
