@@ -7,12 +7,14 @@
 
 #include "aplomb/ceilings.h"
 #include "aplomb/drained.h"
+#include "aplomb/fdm/predict_print.h"
+#include "aplomb/printability/printed_solid.h"
 
 namespace aplomb {
 namespace {
 
 constexpr double aimed_beyond_rad = 0.004 * std::numbers::pi / 180;  // what simplifying the shell may cost
-constexpr int most_carvings = 3;
+constexpr int most_carvings = 3, most_sliced_carvings = 6;
 constexpr double bent_beyond_rad =
     0.03 * std::numbers::pi / 180;          // beyond what a bend came short of: carving keeps more
 constexpr double bent_beyond_ratio = 1.15;  // and what ribs under the ceilings of a larger void cost
@@ -43,6 +45,17 @@ Input with_solid(Input input, const SolidMesh& solid) {
   input.solid = solid;
   input.moments = solid.moments();
   return input;
+}
+
+/// What a shell weighs and where: as it is sliced, or as one piece.
+Result<Moments> printed_moments(const TriangleMesh& shell, const StandOptions& options, const Job& job) {
+  if (!options.profile) return moments(shell);
+  const auto solid = check_solid(shell, job.part(0, 0.5));
+  if (!solid) return tl::unexpected(solid.error());
+  if (!solid->solid) return fail(ErrorCode::internal, "the shell is no solid: " + describe(solid->defects));
+  const auto print = predict_print(printed_solid(*solid->solid), *options.profile, job.part(0.5, 1));
+  if (!print) return tl::unexpected(print.error());
+  return print->all();
 }
 
 /// How far short of its angle a reshaped solid ends.
@@ -76,6 +89,7 @@ Result<Attempt> carve_shell(const SolidVolume& volume, const Input& input, const
                             const StandOptions& options, const CarvingAllowance& allowance, StageClock& clock,
                             const Job& job) {
   const double required_rad = std::atan(joint.required_t);
+  const int most_rounds = options.profile ? most_sliced_carvings : most_carvings;
   double aimed_rad = required_rad + allowance.beyond_rad;
   for (int round = 1;; ++round) {
     const CarveOptions carving_options{options.aim, std::tan(aimed_rad), options.least_volume_mm3};
@@ -84,11 +98,14 @@ Result<Attempt> carve_shell(const SolidVolume& volume, const Input& input, const
     clock.lap("carve");
     carving->reaches = carving->t >= joint.required_t;
     if (!carving->reaches && !allowance.always) return Attempt{joint, std::move(*carving), std::nullopt, volume};
-    auto shell = build_shell(input.solid, carving->field, {.wall_mm = options.wall_mm}, job.part(0.3, 1));
+    auto shell = build_shell(input.solid, carving->field, {.wall_mm = options.wall_mm}, job.part(0.3, 0.9));
     if (!shell) return tl::unexpected(shell.error());
     clock.lap("shell");
-    const double short_rad = required_rad - std::atan(largest_t(joint.problem, moments(shell->mesh) - allowance.taken));
-    if (short_rad <= 0 || !carving->reaches || options.aim == CarveAim::stable || round == most_carvings)
+    const auto body = printed_moments(shell->mesh, options, job.part(0.9, 1));
+    if (!body) return tl::unexpected(body.error());
+    const double short_rad = required_rad - std::atan(largest_t(joint.problem, *body - allowance.taken));
+    const bool has_more = aimed_rad < std::atan(carving->bound_t);  // else this was the most stable void
+    if (short_rad <= 0 || !carving->reaches || !has_more || options.aim == CarveAim::stable || round == most_rounds)
       return Attempt{joint, std::move(*carving), std::move(*shell), volume};
     aimed_rad += short_rad + aimed_beyond_rad;
   }

@@ -82,14 +82,13 @@ void note_sliced(Report& report) {
   if (after_g > before_g)
     report.hints.push_back(
         fmt::format("sliced with this profile it becomes heavier: {:.4g} g instead of {:.4g}, for the slicer puts "
-                    "skins round voids; "
-                    "at 100 % infill they make it lighter",
+                    "skins round voids; at 100 % infill they make it lighter",
                     after_g, before_g));
   if (report.outcome == Outcome::best_effort)
     report.hints.emplace_back(
-        "the angle is that of the sliced print, while carving takes the model as solid: slice it at 100 % infill, or "
-        "ask "
-        "for a larger angle");
+        "the angle is that of the sliced print, whose infill weighs little beside its walls: sliced at 100 % infill a "
+        "void "
+        "does more");
 }
 
 CarvingFigures carving_figures(const Carving& carving, const Input& input, const JointProblem& joint,

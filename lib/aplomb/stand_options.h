@@ -45,10 +45,11 @@ struct StandOptions {
   double least_void_mm = 1;             ///< no void narrower, >= 0; nor narrower than an escape hole
   double least_volume_mm3 = 10;         ///< no void smaller, >= 0; nor than four balls as wide as an escape hole
   std::size_t memory_bytes = std::size_t{4} << 30;
-  double density_g_per_cm3 = 1.24;           ///< > 0; PLA
-  bool best_effort = false;                  ///< make the shell also when it will not stand
-  std::optional<PrintProfile> profile = {};  ///< how it is sliced, z up; none: solid. Carving itself takes it as solid
-  JudgeOptions judge = {};                   ///< of what is written; its pose is the first that stands as it is printed
+  double density_g_per_cm3 = 1.24;  ///< > 0; PLA
+  bool best_effort = false;         ///< make the shell also when it will not stand
+  /// How it is sliced, z up; none: solid. Carving takes it as solid and asks in addition for what slicing loses.
+  std::optional<PrintProfile> profile = {};
+  JudgeOptions judge = {};  ///< of what is written; its pose is the first that stands as it is printed
 };
 
 /// A sentence that names field, value and range; empty when there is nothing to say.
