@@ -105,9 +105,9 @@ class Stage:
     def labels(self, gcode, one):
         """What G-code calls the copies of a model."""
         report = self.scratch / "verified.json"
-        subprocess.run([self.aplomb, "verify", str(gcode), "--tip", "-90deg", "-q", "--report", str(report)], stdin=subprocess.DEVNULL)
+        subprocess.run([self.aplomb, "verify", str(gcode), "--tip", "0deg", "-q", "--report", str(report)], stdin=subprocess.DEVNULL)
         objects = json.loads(report.read_text())["objects"] if report.exists() else []
-        labels = [told["label"] for told in objects if told["label"].startswith(one.model.stem + " ")]
+        labels = [told["name"] for told in objects if told["name"].startswith(one.model.stem + " ")]
         if not labels:
             raise Stop(INTERNAL, f"{one.model.name} is not in the G-code")
         return labels
