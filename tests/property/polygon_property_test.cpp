@@ -48,6 +48,35 @@ TEST(PolygonProperty, thinning_outside_a_box_leaves_the_region_in_it_and_most_of
   EXPECT_LT(far_off.front().size(), 40u);
 }
 
+TEST(PolygonProperty, the_part_in_a_half_plane_has_the_moments_of_the_region_clipped_to_it) {
+  std::mt19937 random(13);
+  std::uniform_real_distribution<double> anywhere(-8, 8), turn(0, 2 * std::numbers::pi);
+  for (int trial = 0; trial < 200; ++trial) {
+    const Polygons region = ragged_ring(random, {anywhere(random), anywhere(random)}, 10, 60);
+    const double angle = turn(random);
+    const HalfPlane half{anywhere(random), {std::cos(angle), std::sin(angle)}};
+    const Polygon piece = clipped({{-30, -30}, {30, 30}}, half);
+    PlaneMoments drawn;
+    const Polygons common = adapters::intersection(region, {piece}).value();
+    for (const Polygon& loop : common) drawn += plane_moments(loop);
+    const PlaneMoments summed = plane_moments(region, half);
+    EXPECT_NEAR(summed.area_mm2, drawn.area_mm2, 1e-4);
+    EXPECT_NEAR(norm(summed.first_mm3 - drawn.first_mm3), 0, 2e-3);
+    EXPECT_NEAR(summed.xx_mm4 + summed.yy_mm4, drawn.xx_mm4 + drawn.yy_mm4, 3e-2);
+    const PlaneMoments other = plane_moments(region, {-half.constant, -1 * half.gradient});
+    EXPECT_NEAR(summed.area_mm2 + other.area_mm2, area_mm2(region), 1e-9);
+  }
+}
+
+TEST(PolygonProperty, a_half_plane_without_a_border_holds_all_or_nothing) {
+  std::mt19937 random(17);
+  const Polygons region = ragged_ring(random, {3, 4}, 10, 60);
+  EXPECT_NEAR(plane_moments(region, {1e-9, {}}).area_mm2, area_mm2(region), 1e-9);
+  EXPECT_EQ(plane_moments(region, {0, {}}).area_mm2, 0);
+  EXPECT_NEAR(plane_moments(region, {1, {1e-14, 0}}).area_mm2, area_mm2(region), 1e-9);
+  EXPECT_TRUE(clipped({{0, 0}, {1, 1}}, {-3, {1, 1}}).empty());
+}
+
 TEST(PolygonProperty, what_two_regions_share_and_what_they_do_not_add_up) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> anywhere(-8, 8), size(1, 12);

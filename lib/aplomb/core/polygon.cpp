@@ -23,6 +23,40 @@ double squared_distance_mm2(Vec2 point, const Segment& segment) {
   return dot(off, off);
 }
 
+/// Of the triangle between the origin and an edge, negative where that runs clockwise.
+PlaneMoments triangle_moments(Vec2 a, Vec2 b) {
+  const double c = cross(a, b);
+  return {c / 2, (c / 6) * (a + b), c / 12 * (a.x * a.x + a.x * b.x + b.x * b.x),
+          c / 24 * (2 * a.x * a.y + a.x * b.y + b.x * a.y + 2 * b.x * b.y),
+          c / 12 * (a.y * a.y + a.y * b.y + b.y * b.y)};
+}
+
+/// About the origin, of what was measured about another point.
+PlaneMoments moved(const PlaneMoments& about, Vec2 o) {
+  const auto& [area, first, xx, xy, yy] = about;
+  return {area, first + area * o, xx + 2 * o.x * first.x + area * o.x * o.x,
+          xy + o.x * first.y + o.y * first.x + area * o.x * o.y, yy + 2 * o.y * first.y + area * o.y * o.y};
+}
+
+/// Of the part of a polygon in a half-plane whose border crosses it.
+PlaneMoments crossed_moments(const Polygon& polygon, const HalfPlane& half) {
+  const Vec2 front = polygon.front();
+  const Vec2 origin = front - (half(front) / dot(half.gradient, half.gradient)) * half.gradient;  // on the border
+  PlaneMoments sum;
+  Vec2 a = polygon.back();
+  double at_a = half(a);
+  for (const Vec2& b : polygon) {
+    const double at_b = half(b);
+    if (at_a > 0 || at_b > 0) {
+      const Vec2 crossing = a + std::clamp(at_a / (at_a - at_b), 0.0, 1.0) * (b - a);
+      sum += triangle_moments((at_a > 0 ? a : crossing) - origin, (at_b > 0 ? b : crossing) - origin);
+    }
+    a = b;
+    at_a = at_b;
+  }
+  return moved(sum, origin);
+}
+
 }  // namespace
 
 PlaneMoments PlaneMoments::about_centroid() const {
@@ -42,16 +76,33 @@ PlaneMoments plane_moments(const Polygon& polygon) {
   Vec2 a = polygon.back() - origin;
   for (const Vec2& point : polygon) {
     const Vec2 b = point - origin;
-    const double c = cross(a, b);
-    sum += {c / 2, (c / 6) * (a + b), c / 12 * (a.x * a.x + a.x * b.x + b.x * b.x),
-            c / 24 * (2 * a.x * a.y + a.x * b.y + b.x * a.y + 2 * b.x * b.y),
-            c / 12 * (a.y * a.y + a.y * b.y + b.y * b.y)};
+    sum += triangle_moments(a, b);
     a = b;
   }
-  const auto [area, first, xx, xy, yy] = sum;
-  const Vec2 o = origin;
-  return {area, first + area * o, xx + 2 * o.x * first.x + area * o.x * o.x,
-          xy + o.x * first.y + o.y * first.x + area * o.x * o.y, yy + 2 * o.y * first.y + area * o.y * o.y};
+  return moved(sum, origin);
+}
+
+PlaneMoments plane_moments(const Polygons& polygons, const HalfPlane& half) {
+  PlaneMoments sum;
+  for (const Polygon& polygon : polygons) {
+    const auto within = std::count_if(polygon.begin(), polygon.end(), [&half](Vec2 q) { return half(q) > 0; });
+    if (within == std::ssize(polygon)) sum += plane_moments(polygon);
+    else if (within > 0) sum += crossed_moments(polygon, half);
+  }
+  return sum;
+}
+
+Polygon clipped(const Box2& box, const HalfPlane& half) {
+  const Polygon corners{box.min, {box.max.x, box.min.y}, box.max, {box.min.x, box.max.y}};
+  Polygon kept;
+  Vec2 a = corners.back();
+  for (const Vec2& b : corners) {
+    const double at_a = half(a), at_b = half(b);
+    if ((at_a > 0) != (at_b > 0)) kept.push_back(a + at_a / (at_a - at_b) * (b - a));
+    if (at_b > 0) kept.push_back(b);
+    a = b;
+  }
+  return kept;
 }
 
 double area_mm2(const Polygon& polygon) {

@@ -47,6 +47,21 @@ PlaneMoments plane_moments(const Polygon& polygon);
 double area_mm2(const Polygon& polygon);
 double area_mm2(const Polygons& polygons);
 
+/// Where constant + gradient . q is positive.
+struct HalfPlane {
+  double constant = 0;
+  Vec2 gradient;
+
+  double operator()(Vec2 q) const { return constant + dot(gradient, q); }
+};
+
+/// Of the part of a region that lies in a half-plane: exact, and linear in its corners, for the cut need not be drawn.
+/// Seen from a point on the border the pieces of the border subtend nothing, so the sum over the edges within is all.
+PlaneMoments plane_moments(const Polygons& polygons, const HalfPlane& half);
+
+/// The part of a rectangle that lies in a half-plane; empty where none does.
+Polygon clipped(const Box2& box, const HalfPlane& half);
+
 Box2 bounding_box(const Polygon& polygon);
 Box2 bounding_box(const Polygons& polygons);
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <numbers>
 #include <string>
 #include <string_view>
 
@@ -24,6 +25,11 @@ struct PrintProfile {
   bool thick_bridges = true;
   double flow_ratio = 1;
   double density_g_per_cm3 = 0;  ///< of the filament; 0: not said
+
+  /// Between the widths of beads with round sides and their spacing: PrusaSlicer's (1 - pi/4) of a layer.
+  double bead_gap_mm() const {
+    return rules == Rules::prusaslicer ? (1 - std::numbers::pi / 4) * layer_mm : 0;
+  }
 };
 
 /// A sentence that names the field, its value and its range, or nothing.
