@@ -40,7 +40,38 @@ std::string common_fields(const ZipEntry& entry, const std::string& stored) {
   return out;
 }
 
+std::size_t number_at(std::string_view bytes, std::size_t at, std::size_t count) {
+  std::size_t value = 0;
+  for (std::size_t i = count; i-- > 0;) value = value << 8 | static_cast<unsigned char>(bytes.at(at + i));
+  return value;
+}
+
+std::string inflated(std::string_view data, std::size_t size) {
+  std::string out(size, '\0');
+  z_stream stream{};
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(data.data()));
+  stream.avail_in = static_cast<uInt>(data.size());
+  stream.next_out = reinterpret_cast<Bytef*>(out.data());
+  stream.avail_out = static_cast<uInt>(size);
+  const bool is_whole = inflateInit2(&stream, -15) == Z_OK && inflate(&stream, Z_FINISH) == Z_STREAM_END;
+  inflateEnd(&stream);
+  if (!is_whole) throw std::runtime_error("zlib");
+  return out;
+}
+
 }  // namespace
+
+std::string part_of(const std::vector<std::byte>& archive, std::string_view name) {
+  const std::string_view bytes(reinterpret_cast<const char*>(archive.data()), archive.size());
+  for (std::size_t at = 0; (at = bytes.find("PK\x01\x02", at)) != bytes.npos; at += 4) {  // the central directory
+    if (bytes.substr(at + 46, number_at(bytes, at + 28, 2)) != name) continue;
+    const std::size_t local = number_at(bytes, at + 42, 4), size = number_at(bytes, at + 20, 4);
+    const std::size_t data = local + 30 + number_at(bytes, local + 26, 2) + number_at(bytes, local + 28, 2);
+    const std::string_view stored = bytes.substr(data, size);
+    return number_at(bytes, at + 10, 2) == 0 ? std::string(stored) : inflated(stored, number_at(bytes, at + 24, 4));
+  }
+  throw std::runtime_error("there is no such part: " + std::string(name));
+}
 
 std::string zip_of(const std::vector<ZipEntry>& entries) {
   std::string out, directory;

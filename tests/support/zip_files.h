@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -19,6 +20,9 @@ struct ZipEntry {
 };
 
 std::string zip_of(const std::vector<ZipEntry>& entries);
+
+/// What an entry of a sound archive holds, deflated or not; throws where there is none.
+std::string part_of(const std::vector<std::byte>& archive, std::string_view name);
 
 /// A package whose root model part is `model`, with further parts.
 std::string package(std::string_view model, std::vector<ZipEntry> more = {});

@@ -67,10 +67,12 @@ TEST(Ballast, ABoxHalfDenseHasTheMassOfClosedForms) {
   const DenseInfill right{{-18, {1, 0, 0}}, 1};
   const double gap = p.bead_gap_mm(), depth = 0.4 - gap / 2 + 0.4 - gap, core = 8 * (20 - 2 * depth);
   const Moments sparse = filled(print).all(), dense = filled(print, right).all(), added = print.added_by(right);
-  const double links = 0.25 * std::pow(0.85, 1.5) * 2 * (50 - 4 * depth) * (0.4 - gap) / ((30 - 2 * depth) * (20 - 2 * depth));
+  const double links =
+      0.25 * std::pow(0.85, 1.5) * 2 * (50 - 4 * depth) * (0.4 - gap) / ((30 - 2 * depth) * (20 - 2 * depth));
   EXPECT_NEAR(added.volume_mm3, (0.85 - links) * core * (30 - depth - 18), 0.5);
   EXPECT_NEAR(added.centroid_mm().x, (18 + 30 - depth) / 2, 0.01);
-  EXPECT_NEAR(dense.volume_mm3 - sparse.volume_mm3, added.volume_mm3, 0.01 * added.volume_mm3);  // the sparse rim differs
+  EXPECT_NEAR(dense.volume_mm3 - sparse.volume_mm3, added.volume_mm3,
+              0.01 * added.volume_mm3);  // the sparse rim differs
 }
 
 TEST(Ballast, ReachesTheAngleWithTheLeastMassAndNotWithLess) {
@@ -99,7 +101,8 @@ TEST(Ballast, NoHalfSpaceExceedsTheBound) {
   std::normal_distribution<double> normal;
   double best = -1;
   for (int trial = 0; trial < 2000; ++trial) {
-    const Vec3 direction{normal(random), normal(random), normal(random)}, at{10 * normal(random), 0, 20 + 10 * normal(random)};
+    const Vec3 direction{normal(random), normal(random), normal(random)},
+        at{10 * normal(random), 0, 20 + 10 * normal(random)};
     const double t = largest_t(problem, sparse + print.added_by({{-dot(direction, at), direction}, 1}));
     best = std::max(best, t);
     EXPECT_LE(t, made->bound_t + 1e-6);
@@ -130,7 +133,8 @@ TEST(Ballast, ADenserSideGivesMore) {
 
 TEST(Ballast, EndsWhenItIsCancelled) {
   const Job job([](double fraction, std::string_view) { return fraction < 0.2; });
-  const auto made = choose_ballast(layered(test::leaning_prism(20, 20, 40, 16)), between(10), {CarveAim::least, 0.1, 1}, job);
+  const auto made =
+      choose_ballast(layered(test::leaning_prism(20, 20, 40, 16)), between(10), {CarveAim::least, 0.1, 1}, job);
   EXPECT_EQ(made.error().code, ErrorCode::cancelled);
 }
 

@@ -29,7 +29,10 @@ class Chooser {
     if (!sparse) return tl::unexpected(sparse.error());
     const Moments plain = sparse->all();
     PlaneSearch search(
-        problem_, [&](const AffineForm& dense) { return plain + print_.added_by({dense, options_.infill_ratio}); },
+        problem_,
+        [&](const AffineForm& dense) {
+          return plain + print_.added_by({dense, options_.infill_ratio});
+        },
         plain);
     const auto stable = search.most_stable(search_tolerance, job.part(0.1, 0.3));
     if (!stable) return tl::unexpected(stable.error());
@@ -116,8 +119,7 @@ TriangleMesh part_of_box(const Box3& box, const AffineForm& form) {
     return at->second;
   };
   const auto add = [&](const std::vector<std::uint32_t>& polygon) {
-    for (std::size_t i = 2; i < polygon.size(); ++i)
-      mesh.triangles.push_back({polygon[0], polygon[i - 1], polygon[i]});
+    for (std::size_t i = 2; i < polygon.size(); ++i) mesh.triangles.push_back({polygon[0], polygon[i - 1], polygon[i]});
   };
   for (const auto& face : faces) {
     const auto part = clipped({corner(face[0]), corner(face[1]), corner(face[2]), corner(face[3])}, form);

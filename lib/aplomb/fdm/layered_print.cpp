@@ -205,8 +205,7 @@ Result<LayeredPrint> LayeredPrint::make(const PrintedSolid& printed, const Print
 /// Of a region that infill takes up, its links along the rim included.
 double LayeredPrint::share(double infill_ratio, const Polygons& region) const {
   if (infill_ratio == 0 || region.empty()) return 0;
-  const double joined_mm =
-      linked_rim(profile_.infill_pattern) * std::pow(1 - infill_ratio, 1.5) * rim_mm(region);
+  const double joined_mm = linked_rim(profile_.infill_pattern) * std::pow(1 - infill_ratio, 1.5) * rim_mm(region);
   const double spacing_mm = profile_.infill_width_mm - profile_.bead_gap_mm();
   return infill_ratio + std::min(1 - infill_ratio, joined_mm * spacing_mm / area_mm2(region));
 }

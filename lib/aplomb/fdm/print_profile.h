@@ -27,9 +27,7 @@ struct PrintProfile {
   double density_g_per_cm3 = 0;  ///< of the filament; 0: not said
 
   /// Between the widths of beads with round sides and their spacing: PrusaSlicer's (1 - pi/4) of a layer.
-  double bead_gap_mm() const {
-    return rules == Rules::prusaslicer ? (1 - std::numbers::pi / 4) * layer_mm : 0;
-  }
+  double bead_gap_mm() const { return rules == Rules::prusaslicer ? (1 - std::numbers::pi / 4) * layer_mm : 0; }
 };
 
 /// A sentence that names the field, its value and its range, or nothing.

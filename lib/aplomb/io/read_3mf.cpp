@@ -137,6 +137,11 @@ class Assembler {
   Result<void> append(const Key& key, const Affine3& transform, TriangleMesh& out) {
     const ThreemfObject& source = **object(key);
     if (!context_.proceed(0.9)) return cancelled();
+    if (!source.modifier.empty()) {
+      context_.note("object " + std::to_string(key.id) + " is marked " + in_quotes(source.modifier) +
+                    " and was left out");
+      return {};
+    }
     if (auto done = append_mesh(key, source.mesh, transform, out); !done) return done;
     const auto left_out =
         key.part == root_ ? vendor_.left_out_components.find(key.id) : vendor_.left_out_components.end();

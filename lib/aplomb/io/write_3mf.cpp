@@ -2,66 +2,29 @@
 
 #include <cstring>
 #include <memory>
+#include <set>
 
+#include "aplomb/io/detail/threemf_model.h"
 #include "aplomb/io/detail/writers.h"
 
 namespace aplomb::detail {
 namespace {
 
-constexpr std::string_view kContentTypes =
-    R"(<?xml version="1.0" encoding="UTF-8"?>
-<Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types"><Default Extension="rels" ContentType="application/vnd.openxmlformats-package.relationships+xml"/><Default Extension="model" ContentType="application/vnd.ms-package.3dmanufacturing-3dmodel+xml"/></Types>
-)";
 constexpr std::string_view kRelationships =
     R"(<?xml version="1.0" encoding="UTF-8"?>
 <Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships"><Relationship Target="/3D/3dmodel.model" Id="rel0" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>
 )";
 
-/// Text as an XML attribute's value; what XML cannot hold becomes a blank.
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&') out += "&amp;";
-    else if (c == '<') out += "&lt;";
-    else if (c == '"') out += "&quot;";
-    else out += static_cast<unsigned char>(c) < 32 ? ' ' : c;
-  }
-  return out;
-}
-
-Result<std::string> model_xml(const TriangleMesh& mesh, const WriteOptions& options, const Job& job) {
-  TextSink out;
-  out.reserve(mesh.vertices.size() * 56 + mesh.triangles.size() * 44 + 1000);
-  out.add(R"(<?xml version="1.0" encoding="UTF-8"?>
-<model unit="millimeter" xml:lang="en-US" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02">
-<metadata name="Application">Aplomb</metadata>
-<resources><object id="1" type="model" name=")");
-  out.add(escaped(options.name));
-  out.add("\"><mesh>\n<vertices>\n");
-  for (const Vec3& v : mesh.vertices) {
-    out.add("<vertex x=\"");
-    out.add(static_cast<float>(v.x));
-    out.add("\" y=\"");
-    out.add(static_cast<float>(v.y));
-    out.add("\" z=\"");
-    out.add(static_cast<float>(v.z));
-    out.add("\"/>\n");
-  }
-  out.add("</vertices>\n<triangles>\n");
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    if (i % 65536 == 0 &&
-        !job.report(0.3 * static_cast<double>(i) / static_cast<double>(mesh.triangles.size()), "write"))
-      return cancelled();
-    out.add("<triangle v1=\"");
-    out.add(mesh.triangles[i][0]);
-    out.add("\" v2=\"");
-    out.add(mesh.triangles[i][1]);
-    out.add("\" v3=\"");
-    out.add(mesh.triangles[i][2]);
-    out.add("\"/>\n");
-  }
-  out.add("</triangles>\n</mesh></object></resources>\n<build><item objectid=\"1\"/></build>\n</model>\n");
-  return out.text();
+/// The types of the package's parts, by extension; those of slicers are XML.
+std::string content_types(const std::vector<PackagePart>& parts) {
+  std::set<std::string> extensions;
+  for (const PackagePart& part : parts) extensions.insert(part.path.substr(part.path.rfind('.') + 1));
+  std::string types =
+      R"(<?xml version="1.0" encoding="UTF-8"?>
+<Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types"><Default Extension="rels" ContentType="application/vnd.openxmlformats-package.relationships+xml"/><Default Extension="model" ContentType="application/vnd.ms-package.3dmanufacturing-3dmodel+xml"/>)";
+  for (const std::string& extension : extensions)
+    types += "<Default Extension=\"" + extension + "\" ContentType=\"text/xml\"/>";
+  return types + "</Types>\n";
 }
 
 /// A zip being written to memory.
@@ -104,7 +67,7 @@ class ZipWriter {
         archive_, 0.02,
         [](zip_t*, double share, void* data) {
           auto& p = *static_cast<Progress*>(data);
-          p.stop = p.stop || !p.job.report(0.3 + 0.7 * share, "write");
+          p.stop = p.stop || !p.job.report(share, "write");
         },
         nullptr, &progress);
     zip_register_cancel_callback_with_state(
@@ -137,13 +100,16 @@ class ZipWriter {
 }  // namespace
 
 Result<Bytes> encode_3mf(const TriangleMesh& mesh, const WriteOptions& options, const Job& job) {
-  const Result<std::string> model = model_xml(mesh, options, job);
-  if (!model) return tl::unexpected<Error>(model.error());
+  const Result<ModelParts> made = model_parts(mesh, options, job.part(0, 0.3));
+  if (!made) return tl::unexpected<Error>(made.error());
+  std::vector<PackagePart> parts = options.parts;
+  if (made->settings) parts.push_back(*made->settings);
+  const std::string types = content_types(parts);
   ZipWriter zip;
-  if (!zip.add("[Content_Types].xml", kContentTypes) || !zip.add("_rels/.rels", kRelationships) ||
-      !zip.add("3D/3dmodel.model", *model))
-    return zip.failure();
-  return zip.finish(job);
+  bool is_added = zip.add("[Content_Types].xml", types) && zip.add("_rels/.rels", kRelationships) &&
+                  zip.add("3D/3dmodel.model", made->model_xml);
+  for (const PackagePart& part : parts) is_added = is_added && zip.add(part.path.c_str(), part.text);
+  return is_added ? zip.finish(job.part(0.3, 1)) : zip.failure();
 }
 
 }  // namespace aplomb::detail

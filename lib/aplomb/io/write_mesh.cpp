@@ -175,6 +175,8 @@ Result<std::vector<std::byte>> encode_mesh(const TriangleMesh& mesh, MeshFormat 
   assert(std::all_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& t) {
     return t[0] < mesh.vertices.size() && t[1] < mesh.vertices.size() && t[2] < mesh.vertices.size();
   }));
+  if (format != MeshFormat::three_mf && (options.modifier || !options.parts.empty()))
+    return fail(ErrorCode::invalid_option, "only a 3MF can hold what a slicer is to do within the model; write a .3mf");
   switch (format) {
     case MeshFormat::three_mf:
       return detail::encode_3mf(mesh, options, job);

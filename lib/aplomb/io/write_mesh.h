@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,9 +20,32 @@ enum class MeshFormat {
   ply,  ///< binary little-endian, float coordinates
 };
 
+/// Whose words a 3MF uses for what core 3MF has none for.
+enum class Flavor {
+  prusaslicer,  ///< Metadata/Slic3r_PE_model.config: PrusaSlicer, SuperSlicer
+  orca,         ///< Metadata/model_settings.config: OrcaSlicer, Bambu Studio
+  cura,         ///< cura: metadata of an object
+};
+
+/// A volume within which the slicer fills more or less; it is no part of the print.
+struct InfillModifier {
+  Flavor flavor = Flavor::prusaslicer;
+  TriangleMesh volume;               ///< closed, outward-wound
+  double infill_ratio = 1;           ///< within it, in [0, 1]; 1 is solid
+  std::optional<double> rest_ratio;  ///< of the rest of the model; none: as the slicer is set
+};
+
+/// A further file of a 3MF package.
+struct PackagePart {
+  std::string path;  ///< such as "Metadata/notes.xml"; its extension must be .config or .xml
+  std::string text;
+};
+
 struct WriteOptions {
-  std::string name = "aplomb";    ///< of the object, where the format has a place for one; any UTF-8
-  TempFileListener on_temp_file;  ///< see write_file_atomically()
+  std::string name = "aplomb";                  ///< of the object, where the format has a place for one; any UTF-8
+  TempFileListener on_temp_file;                ///< see write_file_atomically()
+  std::optional<InfillModifier> modifier = {};  ///< 3MF only
+  std::vector<PackagePart> parts = {};          ///< 3MF only
 };
 
 /// The format that a file's extension asks for (.3mf .stl .obj .ply, any case); "-" is binary STL.
@@ -36,8 +60,8 @@ Result<MeshFormat> format_of(const std::filesystem::path& path);
 /// and admesh take it for ASCII.
 ///
 /// \pre  Indices are in range.
-/// \return unusable_input for a mesh without triangles or with a coordinate beyond float32; third_party (zip);
-/// cancelled.
+/// \return invalid_option for a modifier or parts in a format that cannot hold them; unusable_input for a mesh without
+/// triangles or with a coordinate beyond float32; third_party (zip); cancelled.
 Result<std::vector<std::byte>> encode_mesh(const TriangleMesh& mesh, MeshFormat format,
                                            const WriteOptions& options = {}, const Job& job = {});
 

@@ -105,6 +105,8 @@ class PartReader {
     if (object.type.empty()) object.type = "model";
     for (const pugi::xml_node& child : node) {
       Result<void> done;
+      if (is(child, "metadatagroup")) read_settings(child, "name", object);
+      if (local_name(child.name()) == "settings") read_settings(child, "key", object);  // Cura 4.0 and before
       if (is(child, "mesh") || is(child, "components")) {
         if (object.is_known_shape) return unusable("it has two shapes");
         object.is_known_shape = true;
@@ -114,6 +116,14 @@ class PartReader {
       if (!done) return done;
     }
     return {};
+  }
+
+  static void read_settings(const pugi::xml_node& list, std::string_view key, ThreemfObject& object) {
+    for (const pugi::xml_node& node : list) {
+      const std::string_view name = local_name(attribute(node, key)), value = node.text().get();
+      for (const std::string_view kind : {"infill_mesh", "cutting_mesh", "support_mesh", "anti_overhang_mesh"})
+        if (name == kind && (value == "True" || value == "true")) object.modifier = kind;
+    }
   }
 
   Result<void> read_mesh(const pugi::xml_node& node, TriangleMesh& out) {

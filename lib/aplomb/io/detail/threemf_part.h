@@ -28,6 +28,7 @@ struct ThreemfObject {
   TriangleMesh mesh;  ///< in millimetres
   std::vector<ThreemfReference> components;
   bool is_known_shape = false;  ///< has a mesh or components, not only an extension's geometry
+  std::string modifier;         ///< Cura's name for what it is instead of a part of the print, such as "infill_mesh"
 };
 
 /// One .model part of a 3MF package.
