@@ -105,8 +105,10 @@ Result<Attempt> carve_shell(const SolidVolume& volume, const Input& input, const
     if (!body) return tl::unexpected(body.error());
     const double short_rad = required_rad - std::atan(largest_t(joint.problem, *body - allowance.taken));
     const bool has_more = aimed_rad < std::atan(carving->bound_t);  // else this was the most stable void
-    if (short_rad <= 0 || !carving->reaches || !has_more || options.aim == CarveAim::stable || round == most_rounds)
+    if (short_rad <= 0 || !carving->reaches || !has_more || options.aim == CarveAim::stable || round == most_rounds) {
+      if (options.profile) carving->reaches &= short_rad <= 0 || options.aim == CarveAim::stable;
       return Attempt{joint, std::move(*carving), std::move(*shell), volume};
+    }
     aimed_rad += short_rad + aimed_beyond_rad;
   }
 }

@@ -10,7 +10,7 @@
 #include "aplomb/advice.h"
 #include "aplomb/attempt.h"
 #include "aplomb/balance/attachments.h"
-#include "aplomb/fdm/predict_print.h"
+#include "aplomb/ballasted.h"
 #include "aplomb/holes/drill.h"
 
 namespace aplomb {
@@ -20,17 +20,7 @@ std::vector<Region> uniform_body(const Moments& body, const StandOptions& option
   return {Region{body, options.density_g_per_cm3, 0.02}};
 }
 
-/// The solid as it is sliced, or as one piece.
-Result<std::vector<Region>> body_of(const SolidMesh& solid, const Moments& moments, const StandOptions& options,
-                                    const Job& job) {
-  if (!options.profile) return uniform_body(moments, options);
-  const auto print = predict_print(printed_solid(solid), *options.profile, job);
-  if (!print) return tl::unexpected(print.error());
-  const double told = options.profile->density_g_per_cm3;
-  auto body = print->body(told > 0 ? told : options.density_g_per_cm3);
-  if (body.empty()) return fail(ErrorCode::unusable_input, "with this profile nothing of the model is printed");
-  return body;
-}
+Shell as_it_came(const Input& input) { return {input.solid.mesh(), input.solid.mesh().triangles.size(), 0, 0, 0}; }
 
 Result<std::vector<PoseMeasure>> measure_poses(const TriangleMesh& outer, const std::vector<Region>& body,
                                                const StandOptions& options) {
@@ -53,7 +43,7 @@ void note_loose_attachments(const TriangleMesh& mesh, const std::vector<Pose>& p
 
 /// The report of the solid as it came.
 Result<Report> begin_report(const Input& input, const StandOptions& options, const Job& job) {
-  const auto body = body_of(input.solid, input.moments, options, job);
+  const auto body = body_of(input.solid, input.moments, options, std::nullopt, job);
   if (!body) return tl::unexpected(body.error());
   auto before = measure_poses(input.solid.mesh(), *body, options);
   if (!before) return tl::unexpected(before.error());
@@ -87,8 +77,7 @@ void note_sliced(Report& report) {
   if (report.outcome == Outcome::best_effort)
     report.hints.emplace_back(
         "the angle is that of the sliced print, whose infill weighs little beside its walls: sliced at 100 % infill a "
-        "void "
-        "does more");
+        "void does more, and so may denser infill on one side (--ballast, into a 3MF)");
 }
 
 CarvingFigures carving_figures(const Carving& carving, const Input& input, const JointProblem& joint,
@@ -103,6 +92,25 @@ CarvingFigures carving_figures(const Carving& carving, const Input& input, const
           static_cast<std::size_t>(carving.planes),
           joint.is_surplus ? BoundOf::surplus : (hangs ? BoundOf::tilt : BoundOf::tip),
           {}};
+}
+
+/// Says of a run that mass is moved by infill; the solid leaves as it came.
+Result<StandRun> finish_ballast(StandRun run, const Input& input, Ballast ballast, const JointProblem& joint,
+                                const StandOptions& options) {
+  Report& report = run.report;
+  report.ballast = ballast_figures(ballast, joint, options);
+  auto after = measure_poses(input.solid.mesh(), printed_body(ballast.print, options), options);
+  if (!after) return tl::unexpected(after.error());
+  set_after(report, std::move(*after), kind_of(options));
+  report.outcome = ballast.reaches ? Outcome::stands : Outcome::best_effort;
+  if (options.ballast == Ballasting::automatic)
+    report.hints.push_back(
+        fmt::format("balanced by infill, for at {:.3g} % a void would first add mass: the slicer puts skins round it; "
+                    "--no-ballast carves all the same",
+                    100 * report.ballast->low_ratio));
+  run.shell = as_it_came(input);
+  run.ballast = std::move(ballast);
+  return run;
 }
 
 /// What ceilings that print left undone.
@@ -171,7 +179,7 @@ Result<StandRun> finish(StandRun run, const Input& shaped, std::optional<Attempt
     take_holes(run, shaped, *made);
     run.carving = std::move(made->carving);
   } else {
-    run.shell = Shell{shaped.solid.mesh(), shaped.solid.mesh().triangles.size(), 0, 0, 0};
+    run.shell = as_it_came(shaped);
   }
   if (view && run.shell) view("5-shell", run.shell->mesh);
   const Moments& kept = run.carving ? run.carving->body : shaped.moments;
@@ -195,20 +203,33 @@ Result<StandRun> stand(const Input& input, const StandOptions& options, const Jo
   assert(find_problem(options).empty());
   auto begun = begin_report(input, options, job.part(0, 0.05));
   if (!begun) return tl::unexpected(begun.error());
-  StandRun run{std::nullopt, std::nullopt, {}, {}, std::move(*begun)};
+  StandRun run;
+  run.report = std::move(*begun);
   Report& report = run.report;
   StageClock clock(report.stage_seconds);
   const bool is_to_move = !options.reshape.regions.handles.empty();
   if (all_hold(report) && !is_to_move && options.aim == CarveAim::least) {
     report.outcome = Outcome::already_stands;
-    run.shell = Shell{input.solid.mesh(), input.solid.mesh().triangles.size(), 0, 0, 0};
+    run.shell = as_it_came(input);
     return run;
   }
 
+  std::optional<Ballast> ballast;
+  std::optional<JointProblem> joint;
+  if (tries_ballast(options)) {
+    auto posed = joint_problem(input.solid.mesh(), options.poses, kind_of(options));
+    if (!posed) return tl::unexpected(posed.error());
+    joint = std::move(*posed);
+    auto tried = attempt_ballast(input, *joint, options, clock, job.part(0.05, 0.2));
+    if (!tried) return tl::unexpected(tried.error());
+    if (tried->reaches || options.ballast == Ballasting::only)
+      return finish_ballast(std::move(run), input, std::move(*tried), *joint, options);
+    ballast = std::move(*tried);
+  }
   Input shaped = input;
   std::optional<Attempt> made;
   if (options.deform != Deform::only && !is_to_move) {
-    auto carved = attempt_carving(input, options, clock, job.part(0, options.deform == Deform::never ? 0.8 : 0.4));
+    auto carved = attempt_carving(input, options, clock, job.part(0.2, options.deform == Deform::never ? 0.8 : 0.4));
     if (!carved) return tl::unexpected(carved.error());
     made = std::move(*carved);
   }
@@ -221,6 +242,8 @@ Result<StandRun> stand(const Input& input, const StandOptions& options, const Jo
     report.mesh->outer_unchanged = false;
     if (view) view("4-reshaped", shaped.solid.mesh());
   }
+  if (ballast && !report.deformation && !(made && made->carving.reaches))
+    return finish_ballast(std::move(run), input, std::move(*ballast), *joint, options);
   if (made && !made->shell && options.best_effort)
     if (const auto shell = add_shell(*made, shaped, options, clock, job.part(0.8, 0.9)); !shell)
       return tl::unexpected(shell.error());
@@ -259,7 +282,7 @@ Result<Report> measure_output(const TriangleMesh& written, const Input& input, c
   if (!solid->solid) return fail(ErrorCode::internal, "the shell is no solid: " + describe(solid->defects));
   figures.voids = solid->solid->voids();
   report.mesh = figures;
-  const auto body = body_of(*solid->solid, solid->solid->moments(), options, job.part(0.4, 0.5));
+  const auto body = body_of(*solid->solid, solid->solid->moments(), options, run.ballast, job.part(0.4, 0.5));
   if (!body) return tl::unexpected(body.error());
   auto after = measure_poses(written, *body, options);
   if (!after) return tl::unexpected(after.error());
@@ -267,8 +290,9 @@ Result<Report> measure_output(const TriangleMesh& written, const Input& input, c
   auto judgement = judge_output(written, input, run, options, job.part(0.5, 1));
   if (!judgement) return tl::unexpected(judgement.error());
   report.judgement = std::move(*judgement);
-  if (report.carving || report.deformation) report.outcome = all_hold(report) ? Outcome::stands : Outcome::best_effort;
-  if (options.profile) note_sliced(report);
+  if (report.carving || report.deformation || report.ballast)
+    report.outcome = all_hold(report) ? Outcome::stands : Outcome::best_effort;
+  if (options.profile && report.carving) note_sliced(report);
   return report;
 }
 

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "aplomb/fdm/ballast.h"
 #include "aplomb/holes/hole.h"
 #include "aplomb/input.h"
 #include "aplomb/report/report.h"
@@ -17,10 +18,11 @@ struct StandRun {
   std::optional<Carving> carving;  ///< none when it stands already
   std::vector<Hole> holes;         ///< escape holes that were cut through the shell
   TriangleMesh undrilled;          ///< the outside before the holes were cut; empty without holes
+  std::optional<Ballast> ballast;  ///< where mass was moved by infill; then `shell` is the solid as it came
   Report report;                   ///< `after` and `mesh` are to be measured on what is written: see measure_output()
 };
 
-/// Makes a solid hold every pose (stand, or hang) by carving.
+/// Makes a solid hold every pose (stand, or hang) by carving, or by infill (tries_ballast()).
 ///
 /// \pre  find_problem(options) is empty.
 /// \return over_budget, cancelled, unusable_input; not being able to is an outcome in the report.

@@ -5,6 +5,29 @@
 #include <algorithm>
 
 namespace aplomb {
+namespace {
+
+std::string find_ballast_problem(const StandOptions& o) {
+  const double high = o.ballast_high_ratio;
+  if (!(high > least_ballast_ratio && high <= 1))
+    return fmt::format("ballast_high_ratio is {}; it must lie in ({}, 1]", high, least_ballast_ratio);
+  if (const auto low = o.ballast_low_ratio; low && !(*low >= least_ballast_ratio && *low < high))
+    return fmt::format("ballast_low_ratio is {}; it must lie in [{}, {})", *low, least_ballast_ratio, high);
+  if (o.ballast != Ballasting::only) return {};
+  if (o.deform == Deform::only || !o.reshape.regions.handles.empty())
+    return "ballast leaves the outside as it is, but deform asks for another";
+  if (!o.profile) return {};
+  const double low = o.ballast_low_ratio.value_or(o.profile->infill_ratio);
+  if (!(low >= least_ballast_ratio && low < high))
+    return fmt::format(
+        "the profile's infill is {:.4g} %; ballast needs at least {:.4g} % to be printed on, and less than the {:.4g} "
+        "% "
+        "of its own",
+        100 * low, 100 * least_ballast_ratio, 100 * high);
+  return {};
+}
+
+}  // namespace
 
 std::string find_problem(const StandOptions& o) {
   if (std::string problem = find_problem(o.poses); !problem.empty()) return problem;
@@ -18,6 +41,7 @@ std::string find_problem(const StandOptions& o) {
   if (std::string problem = find_problem(o.reshape); !problem.empty()) return problem;
   if (o.deform == Deform::never && !o.reshape.regions.handles.empty())
     return "deform is never, but a handle moves the outside; it must be auto or only";
+  if (std::string problem = find_ballast_problem(o); !problem.empty()) return problem;
   if (std::string problem = find_problem(o.judge); !problem.empty()) return problem;
   return find_problem(CarveOptions{o.aim, 0, o.least_volume_mm3});
 }

@@ -32,6 +32,16 @@ enum class Ceiling {
   any,        ///< as balance alone has them
 };
 
+/// Whether mass is moved by denser infill on one side, the outside and the inside staying as they are.
+enum class Ballasting {
+  never,
+  automatic,  ///< where a profile has sparse infill, and voids where that does not serve
+  only,
+};
+
+/// Below it dense infill has nothing to be printed on.
+inline constexpr double least_ballast_ratio = 0.05;
+
 struct StandOptions {
   std::vector<Pose> poses{Pose{}};  ///< all of them are to hold at once, each at its required angle; not empty
   bool robust = false;              ///< asked of the robust tip angles instead of the nominal ones
@@ -49,6 +59,9 @@ struct StandOptions {
   bool best_effort = false;         ///< make the shell also when it will not stand
   /// How it is sliced, z up; none: solid. Carving takes it as solid and asks in addition for what slicing loses.
   std::optional<PrintProfile> profile = {};
+  Ballasting ballast = Ballasting::automatic;    ///< only: needs a profile
+  std::optional<double> ballast_low_ratio = {};  ///< of the infill, at least least_ballast_ratio; none: the profile's
+  double ballast_high_ratio = 1;                 ///< above the low one, at most 1
   JudgeOptions judge = {};  ///< of what is written; its pose is the first that stands as it is printed
 };
 

@@ -48,8 +48,6 @@ TEST_F(ProfileFlag, RefusesWhatIsNoProfile) {
   EXPECT_EQ(run(check + path("none.ini")), 2);
   EXPECT_EQ(run(check + path("leaning.stl")), 2);
   EXPECT_NE(text_of("stderr").find("no profile of PrusaSlicer"), std::string::npos) << text_of("stderr");
-  EXPECT_EQ(run("stand " + path("leaning.stl") + " -o " + path("o.stl") + " --save-job j.json --profile " + sparse()),
-            1);
 }
 
 }  // namespace

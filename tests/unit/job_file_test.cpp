@@ -81,6 +81,8 @@ TEST(JobFile, ReadsEveryKeyOfTheExampleAndWritesItAgain) {
     else if (value.is_number()) field = value.get<double>() * 1.01;
     else if (value == "z") field = "-x";
     else if (value == "stable") field = "light";
+    else if (value == "orca") field = "cura";
+    else if (value == "never") field = "auto";
     else if (value == "auto") field = "only";
     else if (value == "none") field = "auto";
     else if (value == "any") field = "auto";

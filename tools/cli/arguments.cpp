@@ -62,6 +62,7 @@ void add_flags(Command command, CLI::App* app, Arguments& a, StandingPose& stand
   if (judges) add_judging_flags(app, a);
   if (carves) {
     add_carving_flags(app, a);
+    add_ballast_flags(app, a);
     add_reshaping_flags(app, a);
   }
   if (carves || command == Command::check) add_profile_flag(app, a);
@@ -112,8 +113,6 @@ Parsed parse_arguments(int argc, char** argv) {
     if (sub->parsed()) a.command = command, a.given = flags_given(*sub);
   if (a.command == Command::verify) return finish_verify(std::move(a));
   a.job.input.read.memory_bytes = a.job.options.memory_bytes;
-  if (!a.profile.empty() && !a.save_job.empty())
-    return {std::nullopt, usage_error("a job file cannot hold --profile yet: leave --save-job or --profile out")};
   if (a.command == Command::hang) a.job.poses.front().pose.way = hanging;
   else a.job.poses.front().pose.way = standing;
   a.job.input.hint_at_resting = a.command == Command::check || a.command == Command::stand;

@@ -34,7 +34,6 @@ struct Arguments {
   Command command = Command::check;
   JobFile job;  ///< without an output the poses are only checked
   VerifyArguments verify;
-  std::filesystem::path profile;   ///< how it is sliced; empty: solid
   std::filesystem::path save_job;  ///< where to write `job`; empty: nowhere
   bool quiet = false;
   bool is_progress_json = false;                           ///< told as lines of JSON, also where there is no terminal

@@ -109,6 +109,34 @@ void add_reshaping_flags(CLI::App* app, Arguments& a) {
   add_region_flags(app, options.reshape.regions);
 }
 
+void add_ballast_flags(CLI::App* app, Arguments& a) {
+  StandOptions& options = a.job.options;
+  app->add_flag_function(
+      "--ballast,!--no-ballast",
+      [&options](std::int64_t count) { options.ballast = count > 0 ? Ballasting::only : Ballasting::never; },
+      "move mass by denser infill on one side, or never (default: where --profile has sparse infill)");
+  const auto add_ratio = [app](const std::string& flag, auto& field_ratio, const std::string& help) {
+    app->add_option_function<std::string>(
+        flag,
+        [flag, &field_ratio](const std::string& text) {
+          const auto percent = parse_quantity(text, percentages);
+          if (!percent) throw CLI::ValidationError(flag, "'" + text + "' is no share such as 15%");
+          field_ratio = *percent / 100;
+        },
+        help);
+  };
+  add_ratio("--ballast-low", options.ballast_low_ratio, "infill of the light side (default: the profile's)");
+  add_ratio("--ballast-high", options.ballast_high_ratio, "infill of the dense side (default 100%)");
+  static const std::map<std::string, Flavor> flavors{
+      {"prusaslicer", Flavor::prusaslicer}, {"orca", Flavor::orca}, {"bambu", Flavor::orca}, {"cura", Flavor::cura}};
+  add_choice(
+      app, "--flavor", {"prusaslicer", "orca", "bambu", "cura"},
+      [&a](const std::string& name) { a.job.flavor = flavors.at(name); },
+      "whose words the 3MF uses for that: prusaslicer orca bambu cura (default: the profile's slicer)");
+  app->add_option("--modifier", a.job.modifier,
+                  "write the volume of denser infill into this 3MF, STL, OBJ or PLY file");
+}
+
 void add_progress_flag(CLI::App* app, Arguments& a) {
   add_choice(
       app, "--progress", {"auto", "json"}, [&a](const std::string& name) { a.is_progress_json = name == "json"; },
@@ -117,7 +145,7 @@ void add_progress_flag(CLI::App* app, Arguments& a) {
 
 void add_profile_flag(CLI::App* app, Arguments& a) {
   app->add_option(
-      "--profile", a.profile,
+      "--profile", a.job.profile,
       "measure it as it is sliced: an .ini of PrusaSlicer, its G-code, or Cura's settings as JSON or lines");
 }
 

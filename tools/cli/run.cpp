@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "aplomb/balance/landing.h"
+#include "aplomb/ballasted.h"
 #include "aplomb/core/stage_clock.h"
 #include "aplomb/core/threads.h"
 #include "aplomb/ending.h"
@@ -66,12 +67,21 @@ Result<void> write_plugs(const StandRun& made, const Arguments& a, const Job& jo
   return write_mesh(a.job.plugs, all, WriteOptions{a.job.plugs.stem().string(), remember_temp_file}, job.part(0.8, 1));
 }
 
+InfillModifier modifier_of(const StandRun& made, const Input& input, const Arguments& a, const StandOptions& options) {
+  const bool is_cura = options.profile->rules == PrintProfile::Rules::cura;
+  return {a.job.flavor.value_or(is_cura ? Flavor::cura : Flavor::prusaslicer),
+          ballast_volume(*made.ballast, input.solid.box()), made.ballast->infill.infill_ratio,
+          options.ballast_low_ratio};
+}
+
 /// Measures what the file of the shell holds, and writes it where it prints or the best effort was asked for.
 Result<Report> measure_and_write(const StandRun& made, const Input& input, const Arguments& a,
                                  const StandOptions& options, const Job& job) {
   const std::filesystem::path& output = a.job.output;
   const MeshFormat format = output == "-" ? MeshFormat::stl : *format_of(output);
-  auto bytes = encode_mesh(made.shell->mesh, format, WriteOptions{output.stem().string(), {}}, job.part(0, 0.4));
+  WriteOptions write{output.stem().string(), {}};
+  if (made.ballast && format == MeshFormat::three_mf) write.modifier = modifier_of(made, input, a, options);
+  auto bytes = encode_mesh(made.shell->mesh, format, write, job.part(0, 0.4));
   if (!bytes) return tl::unexpected(bytes.error());
   const auto back =
       read_mesh(*bytes, output == "-" ? "standard output.stl" : output.filename().string(), {}, job.part(0.4, 0.6));
@@ -84,6 +94,12 @@ Result<Report> measure_and_write(const StandRun& made, const Input& input, const
   }
   if (const auto written = write_file_atomically(output, *bytes, remember_temp_file); !written)
     return tl::unexpected(written.error());
+  if (made.ballast && !a.job.modifier.empty()) {
+    const WriteOptions named{a.job.modifier.stem().string(), remember_temp_file};
+    const auto volume = ballast_volume(*made.ballast, input.solid.box());
+    if (const auto written = write_mesh(a.job.modifier, volume, named); !written)
+      return tl::unexpected(written.error());
+  }
   if (const auto plugged = write_plugs(made, a, job); !plugged) return tl::unexpected(plugged.error());
   if (!a.job.plugs.empty() && made.holes.empty()) report->hints.emplace_back("no escape holes were cut: no plugs");
   return report;
@@ -212,7 +228,7 @@ int run(const Arguments& a) {
     return run_verify(a, progress.job());
   }
   const JobFile& asked = a.job;
-  for (const std::filesystem::path& file : {asked.output, asked.plugs})
+  for (const std::filesystem::path& file : {asked.output, asked.plugs, asked.modifier})
     if (!file.empty() && file != "-")
       if (const auto format = format_of(file); !format) return report_error(format.error());
   if (const auto saved = save_job(a); !saved) return report_error(saved.error());
@@ -223,14 +239,10 @@ int run(const Arguments& a) {
   const auto input = load_solid(asked.model, asked.input, job.part(0, 0.3), dump_into(asked.dump));
   if (!input) return report_error(input.error());
   if (a.command == Command::poses) return list_poses(a, *input);
-  StandOptions options = stand_options(asked, input->solid.box().size().z);
-  if (!a.profile.empty()) {
-    const auto profile = read_profile(a.profile);
-    if (!profile) return report_error(profile.error());
-    options.profile = *profile;
-  }
-  return asked.output.empty() ? run_check(a, *input, options, job.part(0.3, 1))
-                              : run_stand(a, *input, options, job.part(0.3, 1));
+  const auto options = with_profile(stand_options(asked, input->solid.box().size().z), asked);
+  if (!options) return report_error(options.error());
+  return asked.output.empty() ? run_check(a, *input, *options, job.part(0.3, 1))
+                              : run_stand(a, *input, *options, job.part(0.3, 1));
 }
 
 }  // namespace aplomb::cli

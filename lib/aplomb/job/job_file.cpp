@@ -56,6 +56,10 @@ class Reader {
   void angle(const char* key, double& field_rad) const {
     if (const auto at = json_.find(key); at != json_.end()) field_rad = at->get<double>() * degree;
   }
+  template <class Ratio>
+  void percent(const char* key, Ratio& field_ratio) const {
+    if (const auto at = json_.find(key); at != json_.end()) field_ratio = at->get<double>() / 100;
+  }
   void turns(const char* key, std::vector<AxisTurn>& field) const {
     if (const auto at = json_.find(key); at != json_.end()) field = turns_about_xyz(degree * vec_of(*at));
   }
@@ -139,6 +143,10 @@ class Writer {
     json_[key] = field == "-" ? "-" : fs::proximate(fs::absolute(field), fs::absolute(folder_)).generic_string();
   }
   void angle(const char* key, double field_rad) const { json_[key] = degrees_of(field_rad); }
+  void percent(const char* key, double field_ratio) const { json_[key] = 100 * field_ratio; }
+  void percent(const char* key, const std::optional<double>& field_ratio) const {
+    if (field_ratio) percent(key, *field_ratio);
+  }
   void turns(const char* key, const std::vector<AxisTurn>& field) const {
     if (field.size() != 3) return;
     json_[key] = Json::array();

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "aplomb/io/write_mesh.h"
 #include "aplomb/pipeline.h"
 
 namespace aplomb {
@@ -23,13 +24,16 @@ struct JobPose {
 
 /// One run, as a file says it or as a command's flags do.
 struct JobFile {
-  std::filesystem::path model;    ///< "-" is standard input
-  std::filesystem::path output;   ///< empty: the poses are only checked
-  std::filesystem::path report;   ///< empty: none
-  std::filesystem::path dump;     ///< empty: none
-  std::filesystem::path html;     ///< empty: none
-  std::filesystem::path picture;  ///< empty: none
-  std::filesystem::path plugs;    ///< empty: none
+  std::filesystem::path model;     ///< "-" is standard input
+  std::filesystem::path output;    ///< empty: the poses are only checked
+  std::filesystem::path report;    ///< empty: none
+  std::filesystem::path dump;      ///< empty: none
+  std::filesystem::path html;      ///< empty: none
+  std::filesystem::path picture;   ///< empty: none
+  std::filesystem::path plugs;     ///< empty: none
+  std::filesystem::path profile;   ///< how it is sliced; empty: solid. See with_profile()
+  std::filesystem::path modifier;  ///< where to write the volume of denser infill as a mesh; empty: nowhere
+  std::optional<Flavor> flavor;    ///< whose words a 3MF uses for it; none: the profile's slicer's
   InputOptions input;
   std::vector<JobPose> poses{JobPose{}};
   StandOptions options;  ///< all but the poses: see stand_options()
@@ -45,6 +49,10 @@ Result<JudgeOptions> judge_options(const JobFile& job);
 /// The options of the run, its judge's too where its rules are sound, its poses with their contacts, whose default
 /// radius depends on the model's height.
 StandOptions stand_options(const JobFile& job, double height_mm);
+
+/// The options with the job's profile read from its file, where it has one. Ballast needs a place to be written: where
+/// `job` has none and does not ask for ballast, there will be none. \return as read_profile(); invalid_option.
+Result<StandOptions> with_profile(StandOptions options, const JobFile& job);
 
 /// A sentence that names field, value and range; empty when there is nothing to say.
 std::string find_problem(const JobFile& job);

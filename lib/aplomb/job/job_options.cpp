@@ -25,6 +25,12 @@ StandOptions without_contacts(const JobFile& job) {
   return options;
 }
 
+/// Whether what is written can say where infill is to be denser.
+bool holds_ballast(const JobFile& job) {
+  const auto format = format_of(job.output);
+  return job.output.empty() || !job.modifier.empty() || (format && *format == MeshFormat::three_mf);
+}
+
 }  // namespace
 
 std::optional<double> density_of_material(std::string_view name) {
@@ -58,7 +64,23 @@ StandOptions stand_options(const JobFile& job, double height_mm) {
   return options;
 }
 
+Result<StandOptions> with_profile(StandOptions options, const JobFile& job) {
+  if (!holds_ballast(job)) options.ballast = Ballasting::never;
+  if (job.profile.empty()) return options;
+  const auto profile = read_profile(job.profile);
+  if (!profile) return tl::unexpected(profile.error());
+  options.profile = *profile;
+  if (std::string problem = find_problem(options); !problem.empty())
+    return fail(ErrorCode::invalid_option, std::move(problem));
+  return options;
+}
+
 std::string find_problem(const JobFile& job) {
+  if (job.options.ballast == Ballasting::only && job.profile.empty())
+    return "ballast is infill of more than one density: name the profile that it is sliced with";
+  if (job.options.ballast == Ballasting::only && !holds_ballast(job))
+    return fmt::format("{} cannot hold ballast: write a .3mf, or the volume of denser infill on its own (modifier)",
+                       job.output.string());
   for (std::string problem : {find_problem(job.input.placement), find_problem(job.input.repair),
                               find_problem(job.input.read), find_problem(stand_options(job, 1))})
     if (!problem.empty()) return problem;

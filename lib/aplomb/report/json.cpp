@@ -76,9 +76,10 @@ Json json(const PoseReport& entry, std::size_t number) {
   return object;
 }
 
+constexpr std::array<const char*, 3> bound_names{"bound_deg", "bound_tilt_deg", "bound_surplus_deg"};  // of BoundOf
+
 Json json(const CarvingFigures& c) {
-  constexpr std::array<const char*, 3> bounds{"bound_deg", "bound_tilt_deg", "bound_surplus_deg"};
-  const char* bound = bounds[static_cast<std::size_t>(c.bound_of)];
+  const char* bound = bound_names[static_cast<std::size_t>(c.bound_of)];
   Json object{{"aim", c.aim},
               {"void_mm3", c.void_mm3},
               {bound, degrees(c.bound_rad)},
@@ -94,6 +95,15 @@ Json json(const CarvingFigures& c) {
                          {"cost_deg", degrees(ceiling->cost_rad)},
                          {"material_mm3", ceiling->material_mm3}};
   return object;
+}
+
+Json json(const BallastFigures& b) {
+  return {{"infill_percent", {100 * b.low_ratio, 100 * b.high_ratio}},
+          {"dense", {{"constant", b.dense.constant}, {"gradient", json(b.dense.gradient)}}},
+          {"added_mm3", b.added_mm3},
+          {"added_g", b.added_g},
+          {bound_names[static_cast<std::size_t>(b.bound_of)], degrees(b.bound_rad)},
+          {"planes", b.planes}};
 }
 
 Json json(const DeformationFigures& d) {
@@ -153,6 +163,7 @@ std::string to_json(const Report& report) {
   object["poses"] = Json::array();
   for (std::size_t i = 0; i < report.poses.size(); ++i) object["poses"].push_back(json(report.poses[i], i + 1));
   if (report.carving) object["carving"] = json(*report.carving);
+  if (report.ballast) object["ballast"] = json(*report.ballast);
   if (report.deformation) object["deformation"] = json(*report.deformation);
   if (report.wall) object["wall_mm"] = {{"required", report.wall->required_mm}, {"measured", report.wall->measured_mm}};
   for (const HoleFigures& hole : report.holes) object["holes"].push_back(json(hole));

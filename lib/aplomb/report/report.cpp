@@ -14,15 +14,6 @@ const Standing* first_standing(const std::vector<PoseMeasure>& measures) {
   return nullptr;
 }
 
-/// What the tangent of the measured angle exceeds that of the one asked for by.
-double surplus(const PoseReport& entry, const PoseMeasure& measure, RowKind kind) {
-  if (const HangingPose* pose = entry.pose.hanging())
-    return std::tan(pose->required_tilt_rad) - std::tan(std::get<Hanging>(measure).tilt_rad);
-  const Stability& s = std::get<Standing>(measure).stability;
-  return std::tan(kind == RowKind::robust ? s.robust_tip_rad : s.tip_rad) -
-         std::tan(entry.pose.standing()->required_tip_rad);
-}
-
 double gap_rad(const Report& report, RowKind kind) {
   const PoseReport& first = report.poses.front();
   switch (report.carving->bound_of) {
@@ -36,11 +27,18 @@ double gap_rad(const Report& report, RowKind kind) {
       break;
   }
   double least = std::numeric_limits<double>::infinity();
-  for (const PoseReport& entry : report.poses) least = std::min(least, surplus(entry, *entry.after, kind));
+  for (const PoseReport& entry : report.poses) least = std::min(least, surplus_t(entry.pose, *entry.after, kind));
   return report.carving->bound_rad - std::atan(least);
 }
 
 }  // namespace
+
+double surplus_t(const Pose& pose, const PoseMeasure& measure, RowKind kind) {
+  if (const HangingPose* hanging = pose.hanging())
+    return std::tan(hanging->required_tilt_rad) - std::tan(std::get<Hanging>(measure).tilt_rad);
+  const Stability& s = std::get<Standing>(measure).stability;
+  return std::tan(kind == RowKind::robust ? s.robust_tip_rad : s.tip_rad) - std::tan(pose.standing()->required_tip_rad);
+}
 
 void set_before(Report& report, std::vector<PoseMeasure> measures, RowKind kind) {
   assert(measures.size() == report.poses.size());

@@ -81,6 +81,16 @@ struct WallFigures {
   double measured_mm = 0;  ///< exact, on the rounded output
 };
 
+/// How mass was moved by infill.
+struct BallastFigures {
+  double low_ratio = 0, high_ratio = 1;  ///< of the infill
+  AffineForm dense;                      ///< high where positive
+  double added_mm3 = 0, added_g = 0;     ///< of material, to a print with the low infill throughout
+  double bound_rad = 0;                  ///< no filling between the two gives a larger tip angle (see bound_of)
+  BoundOf bound_of = BoundOf::tip;
+  std::size_t planes = 0;  ///< tried until it was proved
+};
+
 /// An escape hole that was cut.
 struct HoleFigures {
   Vec3 mouth_mm;   ///< where its axis leaves the solid
@@ -108,6 +118,7 @@ struct Report {
   std::vector<PoseReport> poses;  ///< every pose, in the order in which they were asked for
   std::optional<CarvingFigures> carving;
   std::optional<DeformationFigures> deformation;
+  std::optional<BallastFigures> ballast;
   std::optional<WallFigures> wall;
   std::vector<HoleFigures> holes;
   std::optional<MeshFigures> mesh;
@@ -126,6 +137,9 @@ struct Report {
 /// its poses. The latter also gives carving->gap_rad.
 void set_before(Report& report, std::vector<PoseMeasure> measures, RowKind kind);
 void set_after(Report& report, std::vector<PoseMeasure> measures, RowKind kind);
+
+/// What the tangent of the measured angle exceeds that of the one asked for by.
+double surplus_t(const Pose& pose, const PoseMeasure& measure, RowKind kind);
 
 /// Whether every pose holds.
 bool all_hold(const Report& report);

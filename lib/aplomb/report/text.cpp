@@ -95,17 +95,18 @@ std::string figures(const PoseMeasure& measure) {
   return std::visit([](const auto& m) { return figures(m); }, measure);
 }
 
-std::string bound(const CarvingFigures& carving) {
-  switch (carving.bound_of) {
+/// Of what could be done at best, by carving or by infill.
+std::string bound(const std::string& nothing, BoundOf bound_of, double bound_rad) {
+  switch (bound_of) {
     case BoundOf::tip:
-      return "no void gives more than " + degrees(carving.bound_rad) + " degrees";
+      return nothing + " gives more than " + degrees(bound_rad) + " degrees";
     case BoundOf::tilt:
-      return "no void comes nearer to level than " + degrees(carving.bound_rad) + " degrees";
+      return nothing + " comes nearer to level than " + degrees(bound_rad) + " degrees";
     case BoundOf::surplus:
       break;
   }
-  if (carving.bound_rad < 0) return "no void meets every pose";
-  return "no void exceeds every pose by more than " + degrees(carving.bound_rad) + " degrees";
+  if (bound_rad < 0) return nothing + " meets every pose";
+  return nothing + " exceeds every pose by more than " + degrees(bound_rad) + " degrees";
 }
 
 /// The trims that people ask for: 0.5, 1 and 2 mm.
@@ -143,11 +144,19 @@ std::string shaping(const CeilingFigures& c) {
   return line("ceilings", text);
 }
 
+std::string filling(const BallastFigures& b) {
+  return line("infill", figure(100 * b.high_ratio) + " % on one side of a plane, " + figure(100 * b.low_ratio) +
+                            " % on the other: " + figure(b.added_g) + " g more; " +
+                            bound("no such infill", b.bound_of, b.bound_rad) + " (" + count(b.planes, "plane") + ")");
+}
+
 std::string work(const Report& report) {
   std::string text;
   if (report.deformation) text += bending(*report.deformation);
+  if (report.ballast) text += filling(*report.ballast);
   if (report.carving)
-    text += line("void", figure(report.carving->void_mm3 * 1e-3) + " cm3; " + bound(*report.carving) + " (aim " +
+    text += line("void", figure(report.carving->void_mm3 * 1e-3) + " cm3; " +
+                             bound("no void", report.carving->bound_of, report.carving->bound_rad) + " (aim " +
                              report.carving->aim + ", " + std::to_string(report.carving->planes) + " planes)");
   if (report.carving && report.carving->ceiling) text += shaping(*report.carving->ceiling);
   if (report.wall)

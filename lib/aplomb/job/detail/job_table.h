@@ -8,10 +8,12 @@
 
 namespace aplomb::detail {
 
-inline constexpr std::array<const char*, 3> aim_names{"least", "light", "stable"};  // in CarveAim's order
-inline constexpr std::array<const char*, 2> ceiling_names{"auto", "any"};           // in Ceiling's order
-inline constexpr std::array<const char*, 2> holes_names{"auto", "none"};            // in Holes' order
-inline constexpr std::array<const char*, 3> deform_names{"never", "auto", "only"};  // in Deform's order
+inline constexpr std::array<const char*, 3> aim_names{"least", "light", "stable"};        // in CarveAim's order
+inline constexpr std::array<const char*, 2> ceiling_names{"auto", "any"};                 // in Ceiling's order
+inline constexpr std::array<const char*, 2> holes_names{"auto", "none"};                  // in Holes' order
+inline constexpr std::array<const char*, 3> deform_names{"never", "auto", "only"};        // in Deform's order
+inline constexpr auto ballast_names = deform_names;                                       // in Ballasting's order
+inline constexpr std::array<const char*, 3> flavor_names{"prusaslicer", "orca", "cura"};  // in Flavor's order
 
 template <class Visitor, class Radius>
 void visit_ball(const Visitor& v, Vec3& center_mm, Radius& radius_mm) {
@@ -67,6 +69,9 @@ void visit_job(const Visitor& v, JobFile& job) {
   v.path("html", job.html);
   v.path("picture", job.picture);
   v.path("plugs", job.plugs);
+  v.path("modifier", job.modifier);
+  v.path("profile", job.profile);
+  v.name("flavor", flavor_names, job.flavor);
   v.group("place", [&](const Visitor& place) {
     place.value("object", job.input.object);
     place.up("up", job.input.placement.up);
@@ -84,6 +89,9 @@ void visit_job(const Visitor& v, JobFile& job) {
   v.value("trim_base_mm", job.options.reshape.most_trim_mm);
   visit_regions(v, job.options.reshape.regions);
   v.name("holes", holes_names, job.options.holes);
+  v.name("ballast", ballast_names, job.options.ballast);
+  v.percent("ballast_low_percent", job.options.ballast_low_ratio);
+  v.percent("ballast_high_percent", job.options.ballast_high_ratio);
   v.name("process", process_names, job.rules.process);
   v.preset("process", job.options.wall_mm, wall_of_process);
   v.value("wall_mm", job.options.wall_mm);
