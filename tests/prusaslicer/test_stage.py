@@ -29,8 +29,12 @@ class CommandLine(unittest.TestCase):
 
     def test_what_is_ours_goes_to_stand_and_its_angle_to_verify(self):
         request = request_of(["-g", "a.stl", "--aplomb", "--tip 5deg --wall '2 mm'"])
-        self.assertEqual(request.stand, ["--tip", "5deg", "--wall", "2 mm"])
-        self.assertEqual((request.tip, request_of(["-g", "a.stl"]).tip), ("5deg", "10deg"))
+        self.assertEqual(request.stand, ["--wall", "2 mm"])
+        self.assertEqual((request.tip_deg, request_of(["-g", "a.stl"]).tip_deg), (5, 10))
+        self.assertAlmostEqual(request_of(["-g", "a.stl", "--aplomb", "--tip=0.1rad"]).tip_deg, 5.72957795)
+        for words in ("--tip", "--tip much"):
+            with self.assertRaises(UsageError):
+                request_of(["-g", "a.stl", "--aplomb", words])
 
     def test_only_g_code_is_staged(self):
         self.assertTrue(is_for_us(["--export-gcode", "a.stl"]))
@@ -76,6 +80,13 @@ class Slicing(unittest.TestCase):
         self.assertEqual(code, 0, said)
         self.assertIn("slicing_mode = close_holes", said)
         self.assertEqual(self.verify(staged, "8deg"), 0)
+
+    def test_at_little_infill_it_stands_by_denser_infill_on_one_side(self):
+        output, sparse = self.folder / "out.gcode", ["--fill-density", "15%", "--fill-pattern", "gyroid"]
+        code, said = self.stage(*sparse, "--aplomb", "--tip 8deg", "-o", output, FIXTURES / "trex.stl")
+        self.assertEqual(code, 0, said)
+        self.assertIn("balanced by infill", said)
+        self.assertEqual(self.verify(output, "8deg"), 0)
 
     def test_what_cannot_stand_is_not_sliced_and_what_was_there_stays(self):
         output = self.folder / "old.gcode"

@@ -1,6 +1,8 @@
 """What a command line of prusa-slicer asks for: which words are models, which are ours, where the G-code goes."""
 import dataclasses
+import math
 import pathlib
+import re
 import shlex
 
 MODEL_SUFFIXES = (".stl", ".obj", ".3mf", ".ply", ".off")
@@ -23,7 +25,7 @@ class Request:
     output: pathlib.Path = None
     merges: bool = False
     stand: list = dataclasses.field(default_factory=list)  # words for `aplomb stand`
-    tip: str = "10deg"
+    tip_deg: float = 10
 
 
 def is_for_us(words):
@@ -77,9 +79,24 @@ def refuse_turn(name, value):
 
 
 def take_tip(request):
-    """--tip is asked of the G-code, too."""
-    for i, word in enumerate(request.stand):
-        if word == "--tip" and i + 1 < len(request.stand):
-            request.tip = request.stand[i + 1]
-        elif word.startswith("--tip="):
-            request.tip = word[len("--tip="):]
+    """--tip is asked of the G-code, too: it is taken from the words for `aplomb stand`."""
+    kept, words = [], list(request.stand)
+    while words:
+        word = words.pop(0)
+        name, joined, value = word.partition("=")
+        if name != "--tip":
+            kept.append(word)
+        elif joined or words:
+            request.tip_deg = degrees(value if joined else words.pop(0))
+        else:
+            raise UsageError("--tip needs a value")
+    request.stand = kept
+
+
+def degrees(text):
+    """"8deg", "8" or "0.14rad"."""
+    found = re.fullmatch(r"([0-9.eE+-]+?)(deg|rad)?", text.strip())
+    try:
+        return float(found[1]) * (math.degrees(1) if found[2] == "rad" else 1)
+    except (TypeError, ValueError):
+        raise UsageError(f"--tip: '{text}' is no angle such as 10deg") from None

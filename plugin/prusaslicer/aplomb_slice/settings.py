@@ -12,6 +12,13 @@ def read_settings(path):
     return settings
 
 
+def promise_limits(settings):
+    """Words for `aplomb verify`: what G-code may differ from the promise by. Sparse infill is predicted less exactly than solid; that it
+    stands is asked of the G-code all the same."""
+    density = settings.get("fill_density", "20%").rstrip("%")
+    return [] if float(density) >= 100 else ["--max-com-error", "2mm", "--max-mass-error", "10%"]
+
+
 def forced_keys(settings):
     """(words for the command line, sentences that say why): what has to be otherwise for the void to be printed as a void."""
     words, why = [], []
