@@ -45,6 +45,18 @@ TEST(GcodeLabels, ObjectsOfKlipperMarlinBambuAndCuraAreToldApart) {
             (Masses{{"object 15", 1}}));
 }
 
+TEST(GcodeLabels, AModelAndItsInfillMeshAreOneObjectWhereThatIsSaid) {
+  const std::string moves = ";MESH:a.stl\nG1 X5 E1\n;MESH:dense.stl\nG1 X9 E2\n;MESH:NONMESH\nG1 X2\n";
+  EXPECT_EQ(masses_mg(moves), (Masses{{"a.stl", 1}, {"dense.stl", 2}}));
+  GcodeOptions as_one = plain_filament;
+  as_one.is_one = true;
+  const auto plate = read_program(plain_start() + moves, as_one);
+  ASSERT_TRUE(plate);
+  ASSERT_EQ(plate->objects.size(), 1u);
+  EXPECT_EQ(plate->objects.front().name, "a.stl");
+  EXPECT_NEAR(mass_of(plate->objects.front().body).mass_g, 3e-3, 1e-9);
+}
+
 TEST(GcodeLabels, TwoKindsOfLabelsForOneObjectAreOneObject) {
   EXPECT_EQ(masses_mg("; printing object a id:0 copy 0\nEXCLUDE_OBJECT_START NAME=a_0\nG1 X5 E1\n"
                       "EXCLUDE_OBJECT_END NAME=a_0\n; stop printing object a id:0 copy 0\n"),

@@ -34,6 +34,7 @@ void add_verify_flags(CLI::App* app, Arguments& a) {
       ->required();
   add_quantity(app, "--tip", verify.options.required_tip_rad, angles, "tip angle asked for (default 10deg)");
   app->add_option("--object", verify.options.object, "only this one, by its label or its number from 1");
+  app->add_flag("--one", verify.gcode.is_one, "all objects are one print: a model and an infill mesh of Cura's in it");
   app->add_option("--expect", verify.expect, "compare with this report of stand or check (its --report)");
   add_percent(app, "--max-mass-error", verify.options.most_mass_error_ratio, "from the report's mass (default 5%)");
   add_quantity(app, "--max-com-error", verify.options.most_com_error_mm, lengths,

@@ -25,6 +25,7 @@ struct Filament {
 struct GcodeOptions {
   std::vector<double> diameters_mm{};  ///< > 0, by tool, the last for all further ones; empty: as the program says
   std::vector<double> densities_g_per_cm3{};  ///< the same
+  bool is_one{};                              ///< all objects are one: a model and an infill mesh of Cura's in it
 };
 
 /// A sentence that names the field, its value and its range, or nothing.

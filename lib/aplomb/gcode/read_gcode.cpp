@@ -88,8 +88,8 @@ std::vector<Filament> filaments_of(const detail::FilamentSettings& told, const G
 /// Reads the moves and what stands beside them.
 class Reader {
  public:
-  Reader(const std::filesystem::path& path, const std::vector<Filament>& filaments)
-      : path_(path), filaments_(filaments), ledger_(filaments) {}
+  Reader(const std::filesystem::path& path, const std::vector<Filament>& filaments, bool is_one)
+      : path_(path), filaments_(filaments), ledger_(filaments, is_one) {}
 
   Result<void> read(LineSource& lines, const Job& job);
   Result<PrintedPlate> plate(const LineSource& lines) const;
@@ -198,7 +198,7 @@ Result<PrintedPlate> read_gcode(const std::filesystem::path& path, const GcodeOp
   const auto settings = settings_of(path);
   if (!settings) return tl::unexpected(settings.error());
   const std::vector<Filament> filaments = filaments_of(*settings, options);
-  Reader reader(path, filaments);
+  Reader reader(path, filaments, options.is_one);
   if (const auto read = reader.read(*lines, job); !read) return tl::unexpected(read.error());
   return reader.plate(*lines);
 }

@@ -48,7 +48,9 @@ double LayerHeights::at(double z_mm, std::optional<double> usual_mm) {
 
 bool PrintLedger::turn_to(std::optional<std::string_view> object, Feature feature) {
   std::size_t index = labelled + (feature == Feature::unnamed ? nameless_unnamed : nameless_model);
-  if (object) {
+  if (object && is_one_ && !objects_.empty()) {
+    index = 0;
+  } else if (object) {
     const auto [known, is_new] = index_of_.try_emplace(std::string(*object), objects_.size());
     if (is_new && objects_.size() == labelled) return false;
     if (is_new) objects_.emplace_back().name = *object;

@@ -31,7 +31,8 @@ class LayerHeights {
 /// Sums up strokes: moments by object, feature and tool, and what of each object lies on the bed.
 class PrintLedger {
  public:
-  explicit PrintLedger(const std::vector<Filament>& filaments) : filaments_(filaments) {}
+  /// \param is_one  whether all objects are parts of the first.
+  PrintLedger(const std::vector<Filament>& filaments, bool is_one) : filaments_(filaments), is_one_(is_one) {}
 
   /// Where the strokes that follow belong; an object without a name: none. \return false beyond 10,000 objects.
   bool turn_to(std::optional<std::string_view> object, Feature feature);
@@ -76,6 +77,7 @@ class PrintLedger {
   std::array<Object, nameless_count> nameless_;
   std::map<Key, Moments> moments_;
   BrimLoops brims_;
+  bool is_one_;
   Key at_{labelled + nameless_unnamed, Feature::unnamed, 0};
   Moments* slot_ = nullptr;  // of at_
   double filament_mm_ = 0;
