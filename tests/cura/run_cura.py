@@ -50,7 +50,7 @@ def install(package, home):
     (data / "packages.json").write_text(json.dumps(scheduled))
 
 
-def run(package, models, folder, seconds):
+def run(package, models, ballast, folder, seconds):
     """What the driver saw. \\raises RuntimeError with the end of Cura's log where it saw nothing."""
     home, out = folder / "home", folder / "out"
     out.mkdir(parents=True)
@@ -63,7 +63,8 @@ def run(package, models, folder, seconds):
     with display() as name:
         environment = {"PATH": os.environ["PATH"], "HOME": str(home), "DISPLAY": name, "LIBGL_ALWAYS_SOFTWARE": "1", "LC_ALL": "C.UTF-8",
                        "QT_QPA_PLATFORM": "xcb", "APLOMB_DRIVER_OUT": str(out), "PYTHONDONTWRITEBYTECODE": "1",
-                       "APLOMB_DRIVER_MODEL": str(models[0]), "APLOMB_DRIVER_SECOND_MODEL": str(models[1])}
+                       "APLOMB_DRIVER_MODEL": str(models[0]), "APLOMB_DRIVER_SECOND_MODEL": str(models[1]),
+                       "APLOMB_DRIVER_BALLAST": str(ballast)}
         environment.update({key: os.environ[key] for key in ("APLOMB_CURA_PICTURES",) if key in os.environ})
         with open(folder / "cura.log", "wb") as log:
             cura = subprocess.Popen(["cura"], env=environment, stdout=log, stderr=subprocess.STDOUT, cwd=folder)

@@ -22,6 +22,8 @@ from Aplomb import meshes  # noqa: E402
 CLI = os.environ["APLOMB_CLI"]
 MODELS = [pathlib.Path(os.environ["APLOMB_FIXTURES"]) / name for name in ("trex.stl", "seal.stl")]
 FILAMENT_MM, LAYER_MM = 1.75, 0.2
+SPARSE = {"layer_height": 0.2, "line_width": 0.4, "wall_line_count": 2, "top_layers": 4, "bottom_layers": 4, "infill_sparse_density": 15,
+          "infill_pattern": "cubic", "material_density": 1.24}  # about as Cura's Ender-3 is
 
 
 class Surface:
@@ -65,7 +67,10 @@ class InCura(unittest.TestCase):
         cls.folder = pathlib.Path(tempfile.mkdtemp(prefix="aplomb_cura"))
         package = cls.folder / "Aplomb.curapackage"
         subprocess.run([ROOT / "plugin/cura/build_package", "--program", CLI, "--without-libraries", "-o", package], check=True)
-        cls.seen = run_cura.run(package, MODELS, cls.folder, 900)
+        profile, ballast = cls.folder / "cura.json", cls.folder / "trex.3mf"
+        profile.write_text(json.dumps(SPARSE))
+        subprocess.run([CLI, "stand", MODELS[0], "--profile", profile, "--tip", "8deg", "-o", ballast, "-q"], check=True)
+        cls.seen = run_cura.run(package, MODELS, ballast, cls.folder, 900)
         cls.out = cls.folder / "out"
 
     @classmethod
@@ -157,6 +162,22 @@ class InCura(unittest.TestCase):
         print("margins by the G-code:", margins)
         self.assertLess(margins["plain"], -1, margins)
         self.assertGreater(margins["made"], 2, margins)
+
+    def test_infill_denser_on_one_side_arrives_as_an_infill_mesh_and_makes_it_stand(self):
+        told = self.seen["ballast"]
+        self.assertEqual([told[key] for key in ("infill_sparse_density", "wall_line_count", "top_layers", "bottom_layers")], [100, 0, 0, 0])
+        self.assertAlmostEqual(told["infill_line_distance"], 0.4)
+        tips = {name: self.verified(name) for name in ("sparse", "ballast")}
+        print("tip angles by the G-code at 15 % infill:", tips)
+        self.assertLess(tips["sparse"], 0)
+        self.assertGreater(tips["ballast"], 7)  # of 8 that were asked for of such a profile
+
+    def verified(self, name):
+        report = self.folder / "verified.json"
+        subprocess.run([CLI, "verify", self.out / f"{name}.gcode", "--one", "--density", "1.24", "--diameter", str(FILAMENT_MM),
+                        "--report", report, "-q"])
+        (one,) = json.loads(report.read_text())["objects"]
+        return one["tip_deg"]
 
     def check(self, name):
         """What the program says of a mesh where it lies on Cura's bed."""

@@ -12,11 +12,13 @@ from UM.Extension import Extension
 from UM.Math.Vector import Vector
 from UM.PluginRegistry import PluginRegistry
 from UM.Scene.Iterator.DepthFirstIterator import DepthFirstIterator
+from UM.Scene.SceneNode import SceneNode
 from UM.Scene.Selection import Selection
 
 OUT = pathlib.Path(os.environ["APLOMB_DRIVER_OUT"])
 MODEL = os.environ["APLOMB_DRIVER_MODEL"]
 SECOND_MODEL = os.environ["APLOMB_DRIVER_SECOND_MODEL"]
+BALLAST = os.environ["APLOMB_DRIVER_BALLAST"]
 PATIENCE_S = 300
 PICTURED_LAYER = 360
 DONE, FAILED = 3, 4  # of UM.Backend.Backend.BackendState
@@ -96,6 +98,7 @@ class Driver(Extension):
         self._seen["redone"] = node.getMeshData() is made
         yield from self.change_while_at_work(node)
         yield from self.choose_among_several(node)
+        yield from self.open_ballast()
 
     def prepare(self):
         self._app.getMachineManager().addMachine("creality_ender3", "T")
@@ -186,6 +189,7 @@ class Driver(Extension):
         scene = self._app.getController().getScene()
         backend = self._app.getBackend()
         backend.backendStateChange.connect(self.note_state)  # held weakly: no lambda
+        self._slicing = 0
         backend.forceSlice()
         yield lambda: self._slicing in (DONE, FAILED)
         yield self.after(1)
@@ -241,6 +245,30 @@ class Driver(Extension):
         self._app.groupSelected()
         yield from self.choose("Will it stand?")
         self.see_verdict("of_group")
+
+    def open_ballast(self):
+        """Opens a model with its infill mesh, at little infill."""
+        for node in self._app.getController().getScene().getRoot().getChildren()[:]:
+            if node.callDecoration("isSliceable") or node.callDecoration("isGroup"):
+                node.setParent(None)
+        extruder = self._app.getGlobalContainerStack().extruderList[0]
+        extruder.userChanges.setProperty("infill_sparse_density", "value", 15)
+        extruder.userChanges.removeInstance("infill_line_distance")
+        self._app.readLocalFile(QUrl.fromLocalFile(BALLAST), "open_as_model")
+        dense_parts = lambda: [node for node in self.models() if node.callDecoration("isInfillMesh")]
+        yield dense_parts
+        yield self.after(2)
+        (dense,) = dense_parts()
+        group = dense.getParent()  # Cura lays a 3MF where it says on the bed, not in its middle
+        centre = group.getBoundingBox().center
+        group.translate(Vector(-centre.x, 0, -centre.z), SceneNode.TransformSpace.World)
+        yield self.after(2)
+        self._seen["ballast"] = {key: dense.callDecoration("getStack").getProperty(key, "value") for key in (
+            "infill_sparse_density", "wall_line_count", "top_layers", "bottom_layers", "infill_line_distance", "infill_pattern")}
+        yield from self.slice("ballast")
+        dense.setParent(None)
+        yield self.after(1)
+        yield from self.slice("sparse")
 
     def save_mesh(self, name, node):
         mesh = node.getMeshData()
