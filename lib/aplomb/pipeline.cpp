@@ -95,7 +95,7 @@ CarvingFigures carving_figures(const Carving& carving, const Input& input, const
 }
 
 /// Says of a run that mass is moved by infill; the solid leaves as it came.
-Result<StandRun> finish_ballast(StandRun run, const Input& input, Ballast ballast, const JointProblem& joint,
+Result<StandRun> finish_ballast(StandRun run, const Input& input, const Ballast& ballast, const JointProblem& joint,
                                 const StandOptions& options) {
   Report& report = run.report;
   report.ballast = ballast_figures(ballast, joint, options);
@@ -109,7 +109,7 @@ Result<StandRun> finish_ballast(StandRun run, const Input& input, Ballast ballas
                     "--no-ballast carves all the same",
                     100 * report.ballast->low_ratio));
   run.shell = as_it_came(input);
-  run.ballast = std::move(ballast);
+  run.ballast = ballast;
   return run;
 }
 
@@ -223,8 +223,8 @@ Result<StandRun> stand(const Input& input, const StandOptions& options, const Jo
     auto tried = attempt_ballast(input, *joint, options, clock, job.part(0.05, 0.2));
     if (!tried) return tl::unexpected(tried.error());
     if (tried->reaches || options.ballast == Ballasting::only)
-      return finish_ballast(std::move(run), input, std::move(*tried), *joint, options);
-    ballast = std::move(*tried);
+      return finish_ballast(std::move(run), input, *tried, *joint, options);
+    ballast = *tried;
   }
   Input shaped = input;
   std::optional<Attempt> made;
@@ -243,7 +243,7 @@ Result<StandRun> stand(const Input& input, const StandOptions& options, const Jo
     if (view) view("4-reshaped", shaped.solid.mesh());
   }
   if (ballast && !report.deformation && !(made && made->carving.reaches))
-    return finish_ballast(std::move(run), input, std::move(*ballast), *joint, options);
+    return finish_ballast(std::move(run), input, *ballast, *joint, options);
   if (made && !made->shell && options.best_effort)
     if (const auto shell = add_shell(*made, shaped, options, clock, job.part(0.8, 0.9)); !shell)
       return tl::unexpected(shell.error());

@@ -46,7 +46,7 @@ TEST_F(BallastFlag, TheDenseVolumeIsWrittenOnItsOwn) {
   ASSERT_TRUE(dense);
   const auto form = report().at("ballast").at("dense");
   for (const Vec3& v : dense->objects.front().mesh.vertices) {
-    const auto g = form.at("gradient");
+    const auto& g = form.at("gradient");
     const double value = form.at("constant").get<double>() + g[0].get<double>() * v.x + g[1].get<double>() * v.y +
                          g[2].get<double>() * v.z;
     EXPECT_GE(value, -1e-3 * std::abs(form.at("constant").get<double>()));

@@ -52,7 +52,7 @@ class Chooser {
     ballast.infill = {dense, options_.infill_ratio};
     auto print = print_.fill(ballast.infill, job);
     if (!print) return tl::unexpected(print.error());
-    ballast.print = std::move(*print);
+    ballast.print = *print;
     ballast.t = largest_t(problem_, ballast.print.all());
     ballast.reaches = options_.aim == CarveAim::stable || ballast.t >= options_.required_t;
     return ballast;
@@ -124,6 +124,7 @@ TriangleMesh part_of_box(const Box3& box, const AffineForm& form) {
   for (const auto& face : faces) {
     const auto part = clipped({corner(face[0]), corner(face[1]), corner(face[2]), corner(face[3])}, form);
     std::vector<std::uint32_t> polygon;
+    polygon.reserve(part.size());
     for (const Vec3& v : part) polygon.push_back(number(v));
     if (polygon.size() < 3) continue;
     add(polygon);
