@@ -1,0 +1,280 @@
+#include "aplomb/inserts/place_chooser.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <tuple>
+
+#include "aplomb/carve/plane_search.h"
+
+namespace aplomb {
+namespace {
+
+constexpr double solid_error = 0.02, insert_error = 0.01;  // PRINTABILITY, "Robust"
+constexpr double bound_tolerance = 1e-5;
+constexpr double worth = 1e-7;  // of t: less is no gain
+constexpr std::size_t most_listed = 20'000;
+constexpr std::size_t most_for_pairs = 8;
+constexpr int most_sweeps = 6;
+constexpr double never = -std::numeric_limits<double>::infinity();
+
+using Candidates = std::vector<std::uint32_t>;
+
+Candidates without(const Candidates& chosen, std::size_t i, std::size_t j) {
+  Candidates rest;
+  for (std::size_t k = 0; k < chosen.size(); ++k)
+    if (k != i && k != j) rest.push_back(chosen[k]);
+  return rest;
+}
+
+}  // namespace
+
+double loaded_t(const BalanceProblem& problem, const LoadedBody& body, RowKind kind) {
+  if (kind == RowKind::nominal) return largest_t(problem, body.all());
+  return std::min(largest_t(problem, (1 + solid_error) * body.solid + (1 - insert_error) * body.inserts),
+                  largest_t(problem, (1 - solid_error) * body.solid + (1 + insert_error) * body.inserts));
+}
+
+PlaceChooser::PlaceChooser(const PocketFits& fits, std::vector<PocketPlace> candidates, BalanceProblem problem,
+                           const Moments& solid, PocketLoads loads)
+    : fits_(fits),
+      candidates_(std::move(candidates)),
+      problem_(std::move(problem)),
+      solid_(solid),
+      loads_(std::move(loads)),
+      known_(candidates_.size(), 0) {
+  assert(loads_.stocks.size() == fits.pockets().size() && loads_.density_g_per_cm3 > 0);
+  // Two pockets of a stock in one cell: beside each other they overlap or leave less than 0.7 walls, and one above
+  // the other, too; together that is less than a wall.
+  std::vector<double> wide(loads_.most.size(), std::numeric_limits<double>::infinity()), high = wide;
+  for (std::size_t p = 0; p < fits.pockets().size(); ++p) {
+    const std::uint32_t stock = loads_.stocks[p];
+    wide[stock] = std::min(wide[stock], (2 * fits.pockets()[p].radius_mm + 0.7 * fits.options().wall_mm) / std::sqrt(2.0));
+    high[stock] = std::min(high[stock], fits.pockets()[p].height_mm + 0.7 * fits.options().wall_mm);
+  }
+  std::map<std::tuple<std::uint32_t, int, int, int>, std::size_t> cell_at;
+  for (std::uint32_t c = 0; c < candidates_.size(); ++c) {
+    const std::uint32_t stock = loads_.stocks[candidates_[c].pocket];
+    const Vec3 at = candidates_[c].floor_mm - candidates_.front().floor_mm;
+    const auto cell = [](double x, double size) { return static_cast<int>(std::floor(x / size)); };
+    const auto [found, is_new] = cell_at.try_emplace(
+        {stock, cell(at.x, wide[stock]), cell(at.y, wide[stock]), cell(at.z, high[stock])}, cells_.size());
+    if (is_new) cells_.push_back({stock, {}});
+    cells_[found->second].members.push_back(c);
+  }
+}
+
+LoadedBody PlaceChooser::load_of(const PocketPlace& place) const {
+  const Pocket& pocket = fits_.pockets()[place.pocket];
+  const double volume = 1e3 * pocket.mass_g() / loads_.density_g_per_cm3;
+  return {-loads_.filled_ratio * pocket_moments(pocket, place.floor_mm),
+          {volume, volume * (place.floor_mm + Vec3{0, 0, pocket.inserts_at_mm})}};
+}
+
+double PlaceChooser::gain(const AffineForm& form, std::uint32_t candidate) const {
+  return form(load_of(candidates_[candidate]).all());
+}
+
+/// For each number of inserts of a stock, up to most, those that the form likes best: a knapsack with a choice in each
+/// cell.
+std::vector<Candidates> PlaceChooser::best_of_stock(const AffineForm& form, std::uint32_t stock, int most) const {
+  struct Step {
+    std::size_t before;
+    std::uint32_t candidate;
+  };
+  constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+  std::vector<Step> steps;
+  std::vector<double> value(most + 1, never);
+  std::vector<std::size_t> last(most + 1, none);
+  value[0] = 0;
+  for (const Cell& cell : cells_) {
+    if (cell.stock != stock) continue;
+    std::map<int, std::pair<double, std::uint32_t>> best;  // by the number of inserts
+    for (const std::uint32_t c : cell.members) {
+      const int stacked = fits_.pockets()[candidates_[c].pocket].stacked;
+      if (known_[c] < 0 || stacked > most) continue;
+      const double gained = gain(form, c);
+      const auto [found, is_new] = best.try_emplace(stacked, gained, c);
+      if (!is_new && gained > found->second.first) found->second = {gained, c};
+    }
+    for (int count = most; count > 0; --count)
+      for (const auto& [stacked, choice] : best)
+        if (stacked <= count && choice.first > 0 && value[count - stacked] + choice.first > value[count]) {
+          value[count] = value[count - stacked] + choice.first;
+          steps.push_back({last[count - stacked], choice.second});
+          last[count] = steps.size() - 1;
+        }
+  }
+  std::vector<Candidates> chosen(most + 1);
+  for (int count = 0; count <= most; ++count)
+    for (std::size_t step = last[count]; step != none; step = steps[step].before)
+      chosen[count].push_back(steps[step].candidate);
+  return chosen;
+}
+
+/// The choice that the form likes best, of at most so many inserts of all stocks together.
+Candidates PlaceChooser::best_for(const AffineForm& form, int most) const {
+  std::vector<double> value(most + 1, 0);
+  std::vector<Candidates> best(most + 1);
+  for (std::uint32_t stock = 0; stock < loads_.most.size(); ++stock) {
+    const auto of_stock = best_of_stock(form, stock, std::min(most, loads_.most[stock]));
+    for (int count = most; count > 0; --count)
+      for (int added = std::min<int>(count, static_cast<int>(of_stock.size()) - 1); added > 0; --added) {
+        double gained = value[count - added];
+        for (const std::uint32_t c : of_stock[added]) gained += gain(form, c);
+        if (gained <= value[count] || of_stock[added].empty()) continue;
+        value[count] = gained;
+        best[count] = best[count - added];
+        best[count].insert(best[count].end(), of_stock[added].begin(), of_stock[added].end());
+      }
+  }
+  return best[std::max_element(value.begin(), value.end()) - value.begin()];
+}
+
+Result<PlaceChooser::Plane> PlaceChooser::search(int most, const Job& job) {
+  const BestBody best_body = [&](const AffineForm& form) {
+    Moments body = solid_;
+    for (const std::uint32_t c : best_for(form, most)) body += load_of(candidates_[c]).all();
+    return body;
+  };
+  const auto found = PlaneSearch(problem_, best_body, solid_).most_stable(bound_tolerance, job);
+  if (!found) return tl::unexpected(found.error());
+  return Plane{found->kept, found->bound, best_for(found->kept, most)};
+}
+
+Result<double> PlaceChooser::bound(int most, const Job& job) {
+  const auto plane = search(most, job);
+  return plane ? Result<double>(plane->bound_t) : tl::unexpected(plane.error());
+}
+
+/// Of each cell and pocket those that the form likes best, the best first.
+Candidates PlaceChooser::shortlist(const AffineForm& form) const {
+  const std::size_t kinds = std::max<std::size_t>(1, cells_.size() * fits_.pockets().size());
+  const std::size_t most_each = std::clamp<std::size_t>(most_listed / kinds, 4, 400);
+  std::vector<std::pair<double, std::uint32_t>> listed;
+  for (const Cell& cell : cells_) {
+    std::map<std::uint32_t, std::vector<std::pair<double, std::uint32_t>>> by_pocket;
+    for (const std::uint32_t c : cell.members)
+      if (known_[c] >= 0) by_pocket[candidates_[c].pocket].emplace_back(-gain(form, c), c);
+    for (auto& [pocket, members] : by_pocket) {
+      std::ranges::sort(members);
+      members.resize(std::min(members.size(), most_each));
+      for (const auto& [loss, c] : members) listed.emplace_back(loss / fits_.pockets()[pocket].stacked, c);
+    }
+  }
+  std::ranges::sort(listed);
+  Candidates list;
+  for (const auto& [loss, c] : listed) list.push_back(c);
+  return list;
+}
+
+int PlaceChooser::inserts_of(const Candidates& chosen) const {
+  int sum = 0;
+  for (const std::uint32_t c : chosen) sum += fits_.pockets()[candidates_[c].pocket].stacked;
+  return sum;
+}
+
+LoadedBody PlaceChooser::body_of(const Candidates& chosen) const {
+  LoadedBody body{solid_, {}};
+  for (const std::uint32_t c : chosen) {
+    const LoadedBody load = load_of(candidates_[c]);
+    body.solid += load.solid;
+    body.inserts += load.inserts;
+  }
+  return body;
+}
+
+double PlaceChooser::t_of(const Candidates& chosen) const {
+  return loaded_t(problem_, body_of(chosen), loads_.kind);
+}
+
+/// Whether there are enough inserts, and it is apart from the others and fits.
+bool PlaceChooser::may_join(const Candidates& chosen, std::uint32_t candidate, int most) {
+  const std::uint32_t pocket = candidates_[candidate].pocket, stock = loads_.stocks[pocket];
+  int all = fits_.pockets()[pocket].stacked, of_stock = all;
+  for (const std::uint32_t c : chosen) {
+    const int stacked = fits_.pockets()[candidates_[c].pocket].stacked;
+    all += stacked;
+    if (loads_.stocks[candidates_[c].pocket] == stock) of_stock += stacked;
+  }
+  if (known_[candidate] < 0 || all > most || of_stock > loads_.most[stock]) return false;
+  for (const std::uint32_t c : chosen)
+    if (!fits_.are_apart(candidates_[c], candidates_[candidate])) return false;
+  if (known_[candidate] == 0) known_[candidate] = fits_.fits(candidates_[candidate]) ? 1 : -1;
+  return known_[candidate] > 0;
+}
+
+void PlaceChooser::fill_by_plane(Candidates& chosen, const Candidates& by_gain, int most) {
+  for (const std::uint32_t c : by_gain) {
+    if (inserts_of(chosen) >= most) return;
+    if (may_join(chosen, c, most)) chosen.push_back(c);
+  }
+}
+
+/// Adds what makes t largest, as long as anything makes it larger.
+void PlaceChooser::fill_by_t(Candidates& chosen, const Candidates& among, int most) {
+  while (inserts_of(chosen) < most) {
+    const double now = t_of(chosen);
+    const LoadedBody body = body_of(chosen);
+    std::vector<std::pair<double, std::uint32_t>> better;
+    for (const std::uint32_t c : among) {
+      if (known_[c] < 0) continue;
+      const LoadedBody load = load_of(candidates_[c]);
+      const double t = loaded_t(problem_, {body.solid + load.solid, body.inserts + load.inserts}, loads_.kind);
+      if (t > now + worth) better.emplace_back(t, c);
+    }
+    const auto is_worse = [](const auto& a, const auto& b) { return a.first != b.first ? a.first < b.first : a.second > b.second; };
+    std::ranges::make_heap(better, is_worse);
+    while (!better.empty() && !may_join(chosen, better.front().second, most)) {
+      std::ranges::pop_heap(better, is_worse);
+      better.pop_back();
+    }
+    if (better.empty()) return;
+    chosen.push_back(better.front().second);
+  }
+}
+
+Result<void> PlaceChooser::exchange(Candidates& chosen, const Candidates& among, int most, const Job& job) {
+  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+    const double before = t_of(chosen);
+    for (std::size_t i = 0; i < chosen.size(); ++i)
+      for (std::size_t j = i; j < (chosen.size() <= most_for_pairs ? chosen.size() : i + 1); ++j) {
+        if (!job.report((sweep + double(i) / double(chosen.size())) / most_sweeps, "place inserts")) return cancelled();
+        Candidates other = without(chosen, i, j);
+        fill_by_t(other, among, most);
+        if (t_of(other) > t_of(chosen) + worth) chosen = std::move(other);
+        if (i >= chosen.size()) break;
+      }
+    if (t_of(chosen) <= before + worth) break;
+  }
+  return {};
+}
+
+Result<PocketChoice> PlaceChooser::choose(int most, const Job& job) {
+  const double bare = loaded_t(problem_, {solid_, {}}, loads_.kind);
+  PocketChoice best{{}, {solid_, {}}, 0, bare, bare};
+  if (candidates_.empty()) return best;
+  const auto plane = search(most, job.part(0, 0.3));
+  if (!plane) return tl::unexpected(plane.error());
+  best.bound_t = std::max(bare, plane->bound_t);
+  const Candidates among = shortlist(plane->form);
+  double from = 0.3;
+  for (const Candidates& start : {Candidates{}, plane->relaxed}) {
+    Candidates chosen;
+    fill_by_plane(chosen, start, most);
+    if (start.empty()) fill_by_t(chosen, among, most);
+    fill_by_plane(chosen, among, most);
+    if (const auto done = exchange(chosen, among, most, job.part(from, from + 0.35)); !done)
+      return tl::unexpected(done.error());
+    from += 0.35;
+    if (const double t = t_of(chosen); t > best.t + worth) {
+      best = {{}, body_of(chosen), inserts_of(chosen), t, best.bound_t};
+      for (const std::uint32_t c : chosen) best.places.push_back(candidates_[c]);
+    }
+  }
+  return best;
+}
+
+}  // namespace aplomb
