@@ -5,6 +5,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "aplomb/advice.h"
@@ -12,6 +13,7 @@
 #include "aplomb/balance/attachments.h"
 #include "aplomb/fdm/predict_print.h"
 #include "aplomb/holes/drill.h"
+#include "aplomb/inserted.h"
 
 namespace aplomb {
 namespace {
@@ -20,14 +22,18 @@ std::vector<Region> uniform_body(const Moments& body, const StandOptions& option
   return {Region{body, options.density_g_per_cm3, 0.02}};
 }
 
+std::vector<Region> with_regions(std::vector<Region> body, const std::vector<Region>& more) {
+  body.insert(body.end(), more.begin(), more.end());
+  return body;
+}
+
 /// The solid as it is sliced, or as one piece.
 Result<std::vector<Region>> body_of(const SolidMesh& solid, const Moments& moments, const StandOptions& options,
                                     const Job& job) {
   if (!options.profile) return uniform_body(moments, options);
   const auto print = predict_print(printed_solid(solid), *options.profile, job);
   if (!print) return tl::unexpected(print.error());
-  const double told = options.profile->density_g_per_cm3;
-  auto body = print->body(told > 0 ? told : options.density_g_per_cm3);
+  auto body = print->body(printed_density(options));
   if (body.empty()) return fail(ErrorCode::unusable_input, "with this profile nothing of the model is printed");
   return body;
 }
@@ -139,7 +145,7 @@ Result<Judgement> judge_output(const TriangleMesh& written, const Input& input, 
   const JudgeOptions judging = judge_options(options);
   auto judgement = judge(written, judging, &run.shell->mesh, job.part(0, 0.5));
   if (!judgement || judgement->new_failures().empty()) return judgement;
-  const bool is_changed = run.carving || run.report.deformation;
+  const bool is_changed = run.carving || run.report.deformation || run.report.inserts;
   const auto before = is_changed ? judge(input.solid.mesh(), judging, nullptr, job.part(0.5, 1)) : judgement;
   if (!before) return tl::unexpected(before.error());
   const double moved_mm = run.report.deformation ? run.report.deformation->max_mm : 0;
@@ -159,6 +165,19 @@ void take_holes(StandRun& run, const Input& shaped, const Attempt& made) {
   run.report.mesh->outer_unchanged = false;
 }
 
+/// Puts inserts in, and says so.
+Result<Inserted> put_in(StandRun& run, const Input& input, const StandOptions& options, StageClock& clock,
+                        const Job& job, const StageViewer& view) {
+  auto inserted = with_inserts(input, options, clock, job);
+  if (!inserted) return inserted;
+  if (view) view("3-pockets", inserted->input.solid.mesh());
+  run.inserts = inserted->input.inserts;
+  run.report.inserts = inserted->figures;
+  if (!run.inserts.empty()) run.report.wall = WallFigures{options.wall_mm, inserted->wall_mm};
+  else run.report.hints.emplace_back("no insert makes it stand better than none");
+  return inserted;
+}
+
 /// Says of a run what was made: of the solid alone where nothing was carved.
 Result<StandRun> finish(StandRun run, const Input& shaped, std::optional<Attempt> made, const StandOptions& options,
                         StageClock& clock, const Job& job, const StageViewer& view) {
@@ -175,12 +194,15 @@ Result<StandRun> finish(StandRun run, const Input& shaped, std::optional<Attempt
   }
   if (view && run.shell) view("5-shell", run.shell->mesh);
   const Moments& kept = run.carving ? run.carving->body : shaped.moments;
-  auto after = measure_poses(shaped.solid.mesh(), uniform_body(kept, options), options);
+  auto after = measure_poses(shaped.solid.mesh(), with_regions(uniform_body(kept, options), shaped.inserts), options);
   if (!after) return tl::unexpected(after.error());
   set_after(report, std::move(*after), kind_of(options));
   const bool reaches = run.carving ? run.carving->reaches : all_hold(report);
   report.outcome = reaches ? Outcome::stands : Outcome::best_effort;
-  if (run.shell && run.carving) report.wall = WallFigures{options.wall_mm, run.shell->wall_mm};
+  if (run.shell && run.carving) {
+    const double pockets_mm = report.wall ? report.wall->measured_mm : std::numeric_limits<double>::infinity();
+    report.wall = WallFigures{options.wall_mm, std::min(run.shell->wall_mm, pockets_mm)};
+  }
   if (!reaches && made) {
     clock.lap("measure");
     add_advice(report, shaped, made->joint, options, job);
@@ -195,20 +217,30 @@ Result<StandRun> stand(const Input& input, const StandOptions& options, const Jo
   assert(find_problem(options).empty());
   auto begun = begin_report(input, options, job.part(0, 0.05));
   if (!begun) return tl::unexpected(begun.error());
-  StandRun run{std::nullopt, std::nullopt, {}, {}, std::move(*begun)};
+  StandRun run{std::nullopt, std::nullopt, {}, {}, {}, std::move(*begun)};
   Report& report = run.report;
   StageClock clock(report.stage_seconds);
   const bool is_to_move = !options.reshape.regions.handles.empty();
   if (all_hold(report) && !is_to_move && options.aim == CarveAim::least) {
     report.outcome = Outcome::already_stands;
+    if (!options.inserts.empty()) report.hints.emplace_back("it stands by itself: no insert was put in");
     run.shell = Shell{input.solid.mesh(), input.solid.mesh().triangles.size(), 0, 0, 0};
     return run;
   }
 
   Input shaped = input;
   std::optional<Attempt> made;
-  if (options.deform != Deform::only && !is_to_move) {
-    auto carved = attempt_carving(input, options, clock, job.part(0, options.deform == Deform::never ? 0.8 : 0.4));
+  bool is_to_carve = options.deform != Deform::only && !is_to_move;
+  if (!options.inserts.empty()) {
+    auto inserted = put_in(run, input, options, clock, job.part(0.05, 0.2), view);
+    if (!inserted) return tl::unexpected(inserted.error());
+    is_to_carve = !inserted->reaches || options.aim != CarveAim::least;
+    shaped = std::move(inserted->input);
+  }
+  if (is_to_carve) {
+    const double from = options.inserts.empty() ? 0 : 0.2;
+    auto carved =
+        attempt_carving(shaped, options, clock, job.part(from, options.deform == Deform::never ? 0.8 : 0.4));
     if (!carved) return tl::unexpected(carved.error());
     made = std::move(*carved);
   }
@@ -261,13 +293,13 @@ Result<Report> measure_output(const TriangleMesh& written, const Input& input, c
   report.mesh = figures;
   const auto body = body_of(*solid->solid, solid->solid->moments(), options, job.part(0.4, 0.5));
   if (!body) return tl::unexpected(body.error());
-  auto after = measure_poses(written, *body, options);
+  auto after = measure_poses(written, with_regions(*body, run.inserts), options);
   if (!after) return tl::unexpected(after.error());
   set_after(report, std::move(*after), kind_of(options));
   auto judgement = judge_output(written, input, run, options, job.part(0.5, 1));
   if (!judgement) return tl::unexpected(judgement.error());
   report.judgement = std::move(*judgement);
-  if (report.carving || report.deformation) report.outcome = all_hold(report) ? Outcome::stands : Outcome::best_effort;
+  if (report.carving || report.deformation || report.inserts) report.outcome = all_hold(report) ? Outcome::stands : Outcome::best_effort;
   if (options.profile) note_sliced(report);
   return report;
 }

@@ -6,6 +6,17 @@
 
 namespace aplomb {
 
+namespace {
+
+std::string find_insert_problem(const StandOptions& o) {
+  if (o.inserts.empty()) return {};
+  for (const InsertStock& stock : o.inserts)
+    if (std::string problem = find_problem(stock); !problem.empty()) return problem;
+  return {};
+}
+
+}  // namespace
+
 std::string find_problem(const StandOptions& o) {
   if (std::string problem = find_problem(o.poses); !problem.empty()) return problem;
   if (!(o.density_g_per_cm3 > 0 && o.density_g_per_cm3 < 30))
@@ -19,6 +30,7 @@ std::string find_problem(const StandOptions& o) {
   if (o.deform == Deform::never && !o.reshape.regions.handles.empty())
     return "deform is never, but a handle moves the outside; it must be auto or only";
   if (std::string problem = find_problem(o.judge); !problem.empty()) return problem;
+  if (std::string problem = find_insert_problem(o); !problem.empty()) return problem;
   return find_problem(CarveOptions{o.aim, 0, o.least_volume_mm3});
 }
 

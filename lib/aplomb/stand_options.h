@@ -9,6 +9,7 @@
 #include "aplomb/carve/carve.h"
 #include "aplomb/deform/reshape.h"
 #include "aplomb/fdm/print_profile.h"
+#include "aplomb/inserts/insert.h"
 #include "aplomb/printability/judge.h"
 
 namespace aplomb {
@@ -49,6 +50,8 @@ struct StandOptions {
   bool best_effort = false;         ///< make the shell also when it will not stand
   /// How it is sliced, z up; none: solid. Carving takes it as solid and asks in addition for what slicing loses.
   std::optional<PrintProfile> profile = {};
+  /// What may be laid into pockets while it prints; carving follows where that is not enough.
+  std::vector<InsertStock> inserts = {};
   JudgeOptions judge = {};  ///< of what is written; its pose is the first that stands as it is printed
 };
 

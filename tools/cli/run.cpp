@@ -10,6 +10,7 @@
 #include "aplomb/core/stage_clock.h"
 #include "aplomb/core/threads.h"
 #include "aplomb/ending.h"
+#include "aplomb/inserts/pause.h"
 #include "aplomb/io/write_mesh.h"
 #include "aplomb/printability/judge.h"
 #include "aplomb/report/json.h"
@@ -63,7 +64,27 @@ Result<void> write_plugs(const StandRun& made, const Arguments& a, const Job& jo
   if (!parts) return tl::unexpected(parts.error());
   TriangleMesh all;
   for (const TriangleMesh& plug : *parts) all = joined(std::move(all), plug);
-  return write_mesh(a.job.plugs, all, WriteOptions{a.job.plugs.stem().string(), remember_temp_file}, job.part(0.8, 1));
+  return write_mesh(a.job.plugs, all, WriteOptions{a.job.plugs.stem().string(), remember_temp_file, {}},
+                    job.part(0.8, 1));
+}
+
+/// What goes into a 3MF beside the model.
+std::vector<PackagePart> parts_of(const Report& report) {
+  if (!report.inserts || report.inserts->pockets.empty()) return {};
+  std::vector<Pause> pauses;
+  for (const PocketFigures& pocket : report.inserts->pockets)
+    pauses.push_back({pocket.first_print_mm, fmt::format("put {} x {} in", pocket.count, pocket.name)});
+  return {{prusaslicer_pauses_path, prusaslicer_pauses(std::move(pauses))}};
+}
+
+/// Where the pauses for inserts are, and for which layers.
+void add_pause_hint(Report& report, MeshFormat format) {
+  if (!report.inserts || report.inserts->pockets.empty()) return;
+  report.hints.push_back(fmt::format(
+      "{}; the pockets are for layers of {:g} mm: other layers need --layer or --profile",
+      format == MeshFormat::three_mf ? "PrusaSlicer finds the pauses in the 3MF; in another slicer set them at these heights"
+                                     : "set the pauses at these heights in the slicer; a 3MF would hold them for PrusaSlicer",
+      report.inserts->layer_mm));
 }
 
 /// Measures what the file of the shell holds, and writes it where it prints or the best effort was asked for.
@@ -71,7 +92,8 @@ Result<Report> measure_and_write(const StandRun& made, const Input& input, const
                                  const StandOptions& options, const Job& job) {
   const std::filesystem::path& output = a.job.output;
   const MeshFormat format = output == "-" ? MeshFormat::stl : *format_of(output);
-  auto bytes = encode_mesh(made.shell->mesh, format, WriteOptions{output.stem().string(), {}}, job.part(0, 0.4));
+  auto bytes = encode_mesh(made.shell->mesh, format, WriteOptions{output.stem().string(), {}, parts_of(made.report)},
+                           job.part(0, 0.4));
   if (!bytes) return tl::unexpected(bytes.error());
   const auto back =
       read_mesh(*bytes, output == "-" ? "standard output.stl" : output.filename().string(), {}, job.part(0.4, 0.6));
@@ -85,6 +107,7 @@ Result<Report> measure_and_write(const StandRun& made, const Input& input, const
   if (const auto written = write_file_atomically(output, *bytes, remember_temp_file); !written)
     return tl::unexpected(written.error());
   if (const auto plugged = write_plugs(made, a, job); !plugged) return tl::unexpected(plugged.error());
+  add_pause_hint(*report, format);
   if (!a.job.plugs.empty() && made.holes.empty()) report->hints.emplace_back("no escape holes were cut: no plugs");
   return report;
 }

@@ -190,6 +190,17 @@ double PlaceChooser::t_of(const Candidates& chosen) const {
   return loaded_t(problem_, body_of(chosen), loads_.kind);
 }
 
+bool PlaceChooser::asked_fits(std::uint32_t candidate) {
+  if (known_[candidate] == 0) known_[candidate] = fits_.fits(candidates_[candidate]) ? 1 : -1;
+  return known_[candidate] > 0;
+}
+
+bool PlaceChooser::any_fits() {
+  for (std::uint32_t c = 0; c < candidates_.size(); ++c)
+    if (asked_fits(c)) return true;
+  return false;
+}
+
 /// Whether there are enough inserts, and it is apart from the others and fits.
 bool PlaceChooser::may_join(const Candidates& chosen, std::uint32_t candidate, int most) {
   const std::uint32_t pocket = candidates_[candidate].pocket, stock = loads_.stocks[pocket];
@@ -202,8 +213,7 @@ bool PlaceChooser::may_join(const Candidates& chosen, std::uint32_t candidate, i
   if (known_[candidate] < 0 || all > most || of_stock > loads_.most[stock]) return false;
   for (const std::uint32_t c : chosen)
     if (!fits_.are_apart(candidates_[c], candidates_[candidate])) return false;
-  if (known_[candidate] == 0) known_[candidate] = fits_.fits(candidates_[candidate]) ? 1 : -1;
-  return known_[candidate] > 0;
+  return asked_fits(candidate);
 }
 
 void PlaceChooser::fill_by_plane(Candidates& chosen, const Candidates& by_gain, int most) {

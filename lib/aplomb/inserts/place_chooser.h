@@ -58,6 +58,9 @@ class PlaceChooser {
   /// \par Cost  a bound, then some hundred scans of at most 20,000 candidates.
   Result<PocketChoice> choose(int most, const Job& job = {});
 
+  /// Whether a pocket fits at any of the candidates. \par Cost  asks each of those that were not asked about.
+  bool any_fits();
+
  private:
   struct Cell {
     std::uint32_t stock = 0;
@@ -75,6 +78,7 @@ class PlaceChooser {
   std::vector<std::vector<std::uint32_t>> best_of_stock(const AffineForm& form, std::uint32_t stock, int most) const;
   Result<Plane> search(int most, const Job& job);
   std::vector<std::uint32_t> shortlist(const AffineForm& form) const;
+  bool asked_fits(std::uint32_t candidate);
   bool may_join(const std::vector<std::uint32_t>& chosen, std::uint32_t candidate, int most);
   LoadedBody body_of(const std::vector<std::uint32_t>& chosen) const;
   double t_of(const std::vector<std::uint32_t>& chosen) const;

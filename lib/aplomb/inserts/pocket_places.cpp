@@ -62,6 +62,7 @@ struct PocketFits::Lattice {
   Vec3 origin;
   double step = 1, rise = 1;  // along the plate, upward
   int columns = 0, rows = 0, levels = 0;
+  std::vector<std::vector<float>> clear;  // of each level: how far the nearest bad point is, squared, in steps
 
   Lattice(const SolidMesh& solid, const PlaceOptions& options) : mesh(solid.mesh()), distance(solid.mesh()) {
     const Box3 box = solid.box();
@@ -79,9 +80,8 @@ struct PocketFits::Lattice {
 
   Vec3 at(int column, int row, int level) const { return origin + Vec3{step * column, step * row, rise * level}; }
 
-  /// For each point of a level how far the nearest bad one is, squared, in steps.
   std::vector<float> clearances(int level, double wall_mm) const {
-    std::vector<float> clear(std::size_t(columns) * rows);
+    std::vector<float> free(std::size_t(columns) * rows);
     tbb::parallel_for(0, rows, [&](int row) {
       std::uint32_t hint = SurfaceDistance::no_triangle;
       for (int column = 0; column < columns; ++column) {
@@ -89,45 +89,46 @@ struct PocketFits::Lattice {
         const auto nearest = distance.closest(point, hint, wall_mm);
         hint = nearest.triangle;
         const bool is_good = nearest.distance_mm >= wall_mm - rounding_mm && distance.inside(point, nearest);
-        clear[std::size_t(row) * columns + column] = is_good ? float(far) : 0.0F;
+        free[std::size_t(row) * columns + column] = is_good ? float(far) : 0.0F;
       }
     });
-    return spread(std::move(clear));
+    return spread(std::move(free));
   }
 
  private:
-  std::vector<float> spread(std::vector<float> clear) const {
+  std::vector<float> spread(std::vector<float> free) const {
     const int longest = std::max(columns, rows);
     std::vector<int> hull(longest);
     std::vector<double> border(longest + 1);
     const auto along = [&](int lines, int points, auto index) {
       std::vector<double> line(points), scratch(points);
       for (int i = 0; i < lines; ++i) {
-        for (int k = 0; k < points; ++k) line[k] = clear[index(i, k)];
+        for (int k = 0; k < points; ++k) line[k] = free[index(i, k)];
         spread_along(line, scratch, hull, border);
-        for (int k = 0; k < points; ++k) clear[index(i, k)] = static_cast<float>(line[k]);
+        for (int k = 0; k < points; ++k) free[index(i, k)] = static_cast<float>(line[k]);
       }
     };
     along(rows, columns, [&](int row, int column) { return std::size_t(row) * columns + column; });
     along(columns, rows, [&](int column, int row) { return std::size_t(row) * columns + column; });
-    return clear;
+    return free;
   }
 };
 
-PocketFits::PocketFits(const SolidMesh& solid, std::vector<Pocket> pockets, const PlaceOptions& options)
-    : pockets_(std::move(pockets)), options_(options), lattice_(std::make_shared<Lattice>(solid, options)) {
+Result<PocketFits> PocketFits::make(const SolidMesh& solid, std::vector<Pocket> pockets, const PlaceOptions& options,
+                                    const Job& job) {
   assert(options.wall_mm > 0 && options.layer_mm > 0 && options.least_step_mm > 0);
+  auto lattice = std::make_shared<Lattice>(solid, options);
+  for (int level = 0; level < lattice->levels; ++level) {
+    if (!job.report(double(level) / lattice->levels, "find pockets")) return cancelled();
+    lattice->clear.push_back(lattice->clearances(level, options.wall_mm));
+  }
+  return PocketFits(std::move(pockets), options, std::move(lattice));
 }
 
 double PocketFits::step_mm() const { return lattice_->step; }
 
-Result<std::vector<PocketPlace>> PocketFits::candidates(const Job& job) const {
+std::vector<PocketPlace> PocketFits::candidates() const {
   const Lattice& lattice = *lattice_;
-  std::vector<std::vector<float>> clear;
-  for (int level = 0; level < lattice.levels; ++level) {
-    if (!job.report(double(level) / lattice.levels, "find pockets")) return cancelled();
-    clear.push_back(lattice.clearances(level, options_.wall_mm));
-  }
   std::vector<PocketPlace> found;
   for (std::uint32_t p = 0; p < pockets_.size(); ++p) {
     std::vector<float> needed;  // squared steps, level by level above the floor
@@ -139,12 +140,24 @@ Result<std::vector<PocketPlace>> PocketFits::candidates(const Job& job) const {
     for (int level = 0; level + tall <= lattice.levels; ++level)
       for (int point = 0; point < lattice.columns * lattice.rows; ++point) {
         int up = 0;
-        while (up < tall && clear[level + up][point] > needed[up]) ++up;
-        if (up == tall)
-          found.push_back({p, lattice.at(point % lattice.columns, point / lattice.columns, level)});
+        while (up < tall && lattice.clear[level + up][point] > needed[up]) ++up;
+        if (up == tall) found.push_back({p, lattice.at(point % lattice.columns, point / lattice.columns, level)});
       }
   }
   return found;
+}
+
+double PocketFits::widest_mm(double height_mm) const {
+  const Lattice& lattice = *lattice_;
+  const int tall = static_cast<int>(height_mm / lattice.rise + 1e-9) + 1;
+  float widest = 0;
+  for (int level = 0; level + tall <= lattice.levels; ++level)
+    for (std::size_t point = 0; point < lattice.clear[level].size(); ++point) {
+      float narrowest = lattice.clear[level][point];
+      for (int up = 1; up < tall; ++up) narrowest = std::min(narrowest, lattice.clear[level + up][point]);
+      widest = std::max(widest, narrowest);
+    }
+  return 2 * std::sqrt(double(widest)) * lattice.step;
 }
 
 double PocketFits::wall_mm(const PocketPlace& place, double at_most_mm) const {

@@ -31,15 +31,19 @@ struct PlaceOptions {
 /// The places of a lattice where pockets may fit, and whether they do.
 class PocketFits {
  public:
-  /// \pre The mesh of the solid stays. The pockets are sound.
-  PocketFits(const SolidMesh& solid, std::vector<Pocket> pockets, const PlaceOptions& options);
+  /// Measures the lattice. \pre The mesh of the solid stays; the pockets are sound.
+  /// \return cancelled.
+  /// \par Cost  a distance (2 us) per point of the lattice, shared by the threads allowed.
+  static Result<PocketFits> make(const SolidMesh& solid, std::vector<Pocket> pockets, const PlaceOptions& options,
+                                 const Job& job = {});
 
   /// Every place of the lattice that no distance at a point of the lattice rules out: all that fit, and some that are
   /// short of it by less than a step. In a fixed order.
-  ///
-  /// \return cancelled.
-  /// \par Cost  a distance (2 us) per point of the lattice, shared by the threads allowed.
-  Result<std::vector<PocketPlace>> candidates(const Job& job) const;
+  std::vector<PocketPlace> candidates() const;
+
+  /// The diameter of the widest upright cylinder of this height that has the wall round it, to about a step; 0 where
+  /// there is none.
+  double widest_mm(double height_mm) const;
 
   /// The least distance from the pocket, rounded to float32, to the solid's surface, triangle against triangle, or
   /// `at_most_mm` when that is less; where it does not keep the wall, any number that does not.
@@ -59,6 +63,8 @@ class PocketFits {
 
  private:
   struct Lattice;
+  PocketFits(std::vector<Pocket> pockets, const PlaceOptions& options, std::shared_ptr<const Lattice> lattice)
+      : pockets_(std::move(pockets)), options_(options), lattice_(std::move(lattice)) {}
   std::vector<Pocket> pockets_;
   PlaceOptions options_;
   std::shared_ptr<const Lattice> lattice_;

@@ -2,20 +2,29 @@
 
 #include <cstring>
 #include <memory>
+#include <set>
 
 #include "aplomb/io/detail/writers.h"
 
 namespace aplomb::detail {
 namespace {
 
-constexpr std::string_view kContentTypes =
-    R"(<?xml version="1.0" encoding="UTF-8"?>
-<Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types"><Default Extension="rels" ContentType="application/vnd.openxmlformats-package.relationships+xml"/><Default Extension="model" ContentType="application/vnd.ms-package.3dmanufacturing-3dmodel+xml"/></Types>
-)";
 constexpr std::string_view kRelationships =
     R"(<?xml version="1.0" encoding="UTF-8"?>
 <Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships"><Relationship Target="/3D/3dmodel.model" Id="rel0" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>
 )";
+
+/// The types of the package's parts, by extension; those of slicers are XML.
+std::string content_types(const std::vector<PackagePart>& parts) {
+  std::set<std::string> extensions;
+  for (const PackagePart& part : parts) extensions.insert(part.path.substr(part.path.rfind('.') + 1));
+  std::string types =
+      R"(<?xml version="1.0" encoding="UTF-8"?>
+<Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types"><Default Extension="rels" ContentType="application/vnd.openxmlformats-package.relationships+xml"/><Default Extension="model" ContentType="application/vnd.ms-package.3dmanufacturing-3dmodel+xml"/>)";
+  for (const std::string& extension : extensions)
+    types += "<Default Extension=\"" + extension + "\" ContentType=\"text/xml\"/>";
+  return types + "</Types>\n";
+}
 
 /// Text as an XML attribute's value; what XML cannot hold becomes a blank.
 std::string escaped(std::string_view text) {
@@ -139,11 +148,12 @@ class ZipWriter {
 Result<Bytes> encode_3mf(const TriangleMesh& mesh, const WriteOptions& options, const Job& job) {
   const Result<std::string> model = model_xml(mesh, options, job);
   if (!model) return tl::unexpected<Error>(model.error());
+  const std::string types = content_types(options.parts);
   ZipWriter zip;
-  if (!zip.add("[Content_Types].xml", kContentTypes) || !zip.add("_rels/.rels", kRelationships) ||
-      !zip.add("3D/3dmodel.model", *model))
-    return zip.failure();
-  return zip.finish(job);
+  bool is_added = zip.add("[Content_Types].xml", types) && zip.add("_rels/.rels", kRelationships) &&
+                  zip.add("3D/3dmodel.model", *model);
+  for (const PackagePart& part : options.parts) is_added = is_added && zip.add(part.path.c_str(), part.text);
+  return is_added ? zip.finish(job) : zip.failure();
 }
 
 }  // namespace aplomb::detail

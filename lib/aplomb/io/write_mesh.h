@@ -19,9 +19,16 @@ enum class MeshFormat {
   ply,  ///< binary little-endian, float coordinates
 };
 
+/// A further file of a 3MF package.
+struct PackagePart {
+  std::string path;  ///< such as "Metadata/notes.xml"; its extension must be .config or .xml
+  std::string text;
+};
+
 struct WriteOptions {
-  std::string name = "aplomb";    ///< of the object, where the format has a place for one; any UTF-8
-  TempFileListener on_temp_file;  ///< see write_file_atomically()
+  std::string name = "aplomb";          ///< of the object, where the format has a place for one; any UTF-8
+  TempFileListener on_temp_file;        ///< see write_file_atomically()
+  std::vector<PackagePart> parts = {};  ///< 3MF only
 };
 
 /// The format that a file's extension asks for (.3mf .stl .obj .ply, any case); "-" is binary STL.

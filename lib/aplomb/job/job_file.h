@@ -36,6 +36,7 @@ struct JobFile {
   int threads = 0;       ///< 0: one per core
   RuleChanges rules;     ///< what the print is judged by
   double infill_percent = 100;
+  std::vector<std::string> inserts;  ///< as parse_insert() reads them
   bool fem = false;  ///< whether strength.fem is asked for
 };
 

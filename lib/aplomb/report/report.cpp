@@ -42,6 +42,12 @@ double gap_rad(const Report& report, RowKind kind) {
 
 }  // namespace
 
+int InsertFigures::count() const {
+  int sum = 0;
+  for (const PocketFigures& pocket : pockets) sum += pocket.count;
+  return sum;
+}
+
 void set_before(Report& report, std::vector<PoseMeasure> measures, RowKind kind) {
   assert(measures.size() == report.poses.size());
   if (const Standing* standing = first_standing(measures)) report.before = *standing;

@@ -143,8 +143,28 @@ std::string shaping(const CeilingFigures& c) {
   return line("ceilings", text);
 }
 
+std::string inserting(const InsertFigures& inserts) {
+  std::string text;
+  for (const PocketFigures& p : inserts.pockets)
+    text += line(&p == &inserts.pockets.front() ? "inserts" : "",
+                 "pause at z = " + number(p.pause_mm, 2) + " mm and put " +
+                     (p.count == 1 ? "a " + p.name : std::to_string(p.count) + " x " + p.name) + " in: " +
+                     figure(p.mass_g) + " g at " + point(p.at_mm));
+  const std::string count = std::to_string(inserts.count()) + " of " + std::to_string(inserts.allowed);
+  std::string known = count + " used; ";
+  if (inserts.bound_of == BoundOf::tip)
+    known += "alone they reach " + degrees(inserts.reached_rad) + " degrees, and as many elsewhere at most " +
+             degrees(inserts.bound_rad);
+  else if (inserts.bound_of == BoundOf::tilt)
+    known += "alone they come to " + degrees(inserts.reached_rad) + " degrees from level, and as many elsewhere to " +
+             degrees(inserts.bound_rad) + " at best";
+  else known += inserts.reached_rad >= 0 ? "alone they meet every pose" : "alone they do not meet every pose";
+  return text + line(text.empty() ? "inserts" : "", known + " (places " + figure(inserts.step_mm) + " mm apart)");
+}
+
 std::string work(const Report& report) {
   std::string text;
+  if (report.inserts) text += inserting(*report.inserts);
   if (report.deformation) text += bending(*report.deformation);
   if (report.carving)
     text += line("void", figure(report.carving->void_mm3 * 1e-3) + " cm3; " + bound(*report.carving) + " (aim " +
