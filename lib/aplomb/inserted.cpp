@@ -6,7 +6,10 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <optional>
 
+#include "aplomb/carve/moment_tree.h"
+#include "aplomb/carve/plane_search.h"
 #include "aplomb/fdm/predict_print.h"
 #include "aplomb/printability/detail/places.h"
 
@@ -82,13 +85,17 @@ class Inserter {
     loads_.filled_ratio = std::min(1.0, solid->volume_mm3 / input_.moments.volume_mm3);
     loads_.kind = kind_of(options_);
     PlaceChooser chooser(*fits, fits->candidates(), joint_.problem, *solid, loads_);
-    return options_.aim == CarveAim::least ? fewest(chooser, *fits, job.part(0.4, 1))
-                                           : with(chooser, *fits, allowed_, job.part(0.4, 1));
+    if (options_.aim == CarveAim::least) {
+      auto alone = fewest(chooser, *fits, job.part(0.4, 0.8));
+      if (!alone || *alone) return alone.map([](auto& made) { return std::move(*made); });
+    }
+    return beside_a_void(chooser, *fits, *solid, job.part(0.8, 1));
   }
 
  private:
-  Result<Inserted> fewest(PlaceChooser& chooser, const PocketFits& fits, const Job& job) {
-    int least = 1, beyond = allowed_;  // fewer than least are proved not to do
+  /// Nothing where inserts alone do not do.
+  Result<std::optional<Inserted>> fewest(PlaceChooser& chooser, const PocketFits& fits, const Job& job) {
+    int least = 1, beyond = allowed_ + 1;  // fewer than least are proved not to do
     while (least < beyond) {
       const int middle = (least + beyond) / 2;
       const auto bound = chooser.bound(middle, job.part(0, 0.1));
@@ -96,33 +103,66 @@ class Inserter {
       if (*bound < joint_.required_t) least = middle + 1;
       else beyond = middle;
     }
-    for (int count = least;; ++count) {
-      const double left = allowed_ - least + 1.0;
-      auto made = with(chooser, fits, count, job.part(0.1 + 0.9 * (count - least) / left, 0.1 + 0.9 * (count - least + 1) / left));
-      if (!made || made->reaches || count == allowed_) return made;
+    for (int count = least; count <= allowed_; ++count) {
+      const double all = allowed_ - least + 1.0;
+      const Job part = job.part(0.1 + 0.9 * (count - least) / all, 0.1 + 0.9 * (count - least + 1) / all);
+      const auto choice = chooser.choose(count, part.part(0, 0.8));
+      if (!choice) return tl::unexpected(choice.error());
+      auto made = with(*choice, choice->bound_t, fits, part.part(0.8, 1));
+      if (!made) return tl::unexpected(made.error());
+      if (made->reaches) return std::optional(std::move(*made));
     }
+    return std::optional<Inserted>();
   }
 
-  Result<Inserted> with(PlaceChooser& chooser, const PocketFits& fits, int count, const Job& job) {
-    const auto choice = chooser.choose(count, job.part(0, 0.8));
+  /// As many as help, where they help a void most.
+  Result<Inserted> beside_a_void(PlaceChooser& chooser, const PocketFits& fits, const Moments& solid, const Job& job) {
+    const auto bound = chooser.bound(allowed_, job.part(0, 0.2));
+    if (!bound) return tl::unexpected(bound.error());
+    const auto plane = plane_of_void(chooser, solid, job.part(0.2, 0.6));
+    if (!plane) return tl::unexpected(plane.error());
+    const auto choice = chooser.choose_for(*plane, allowed_, job.part(0.6, 0.9));
     if (!choice) return tl::unexpected(choice.error());
     if (choice->places.empty() && !chooser.any_fits()) return refusal(fits);
+    return with(*choice, *bound, fits, job.part(0.9, 1));
+  }
+
+  /// The plane that is best for a void and inserts together, were there room for both.
+  Result<AffineForm> plane_of_void(const PlaceChooser& chooser, const Moments& solid, const Job& job) {
+    const double voxel = std::min(2 * voxel_mm(options_, input_.solid.box()), options_.wall_mm / 2);
+    const auto volume =
+        voxelize(input_.solid, {options_.wall_mm, voxel, 0, options_.memory_bytes}, job.part(0, 0.7));
+    if (!volume) return tl::unexpected(volume.error());
+    const MomentTree tree(carvable_blocks(*volume), volume->frame());
+    const BestBody best_body = [&](const AffineForm& form) {
+      return solid - loads_.filled_ratio * tree.not_positive_part(form) + chooser.relaxed_load(form, allowed_);
+    };
+    PlaneSearch search(joint_.problem, best_body, solid);
+    const auto stable = search.most_stable(1e-5, job.part(0.7, 0.9));
+    if (!stable) return tl::unexpected(stable.error());
+    if (options_.aim != CarveAim::least || stable->t <= joint_.required_t) return stable->kept;
+    const auto least = search.extreme_volume(VolumeAim::most, joint_.required_t, *stable, job.part(0.9, 1));
+    if (!least) return tl::unexpected(least.error());
+    return least->kept - AffineForm{1 / solid.volume_mm3, {}};  // an insert's worth is what it does for the rows
+  }
+
+  Result<Inserted> with(const PocketChoice& choice, double bound_t, const PocketFits& fits, const Job& job) {
     TriangleMesh inner;
-    Inserted made{input_, figures_of(*choice, fits), std::numeric_limits<double>::infinity(), false};
-    for (const PocketPlace& place : choice->places) {
+    Inserted made{input_, figures_of(choice, bound_t, fits), std::numeric_limits<double>::infinity(), false};
+    for (const PocketPlace& place : choice.places) {
       inner = joined(std::move(inner), rounded_to_float(pocket_mesh(pockets_[place.pocket], place.floor_mm)));
       made.wall_mm = std::min(made.wall_mm, fits.wall_mm(place, input_.solid.box().diagonal()));
       made.input.inserts.push_back(region_of(place));
     }
-    if (!choice->places.empty()) {
-      const auto solid = check_solid(joined(input_.solid.mesh(), reversed(inner)), job.part(0.8, 0.9));
+    if (!choice.places.empty()) {
+      const auto solid = check_solid(joined(input_.solid.mesh(), reversed(inner)), job.part(0, 0.5));
       if (!solid) return tl::unexpected(solid.error());
       if (!solid->solid)
         return fail(ErrorCode::internal, "with pockets it is no solid: " + describe(solid->defects));
       made.input.solid = *solid->solid;
       made.input.moments = input_.moments - moments(inner);
     }
-    const auto body = printed(made.input.solid, made.input.moments, options_, job.part(0.9, 1));
+    const auto body = printed(made.input.solid, made.input.moments, options_, job.part(0.5, 1));
     if (!body) return tl::unexpected(body.error());
     const double t = loaded_t(joint_.problem, {*body, inserts_as_solid(made.input, options_)}, kind_of(options_));
     made.reaches = t >= joint_.required_t;
@@ -138,11 +178,11 @@ class Inserter {
     return {{volume, volume * centre}, density_g_per_cm3(pocket.insert), 0.01};
   }
 
-  InsertFigures figures_of(const PocketChoice& choice, const PocketFits& fits) const {
+  InsertFigures figures_of(const PocketChoice& choice, double bound_t, const PocketFits& fits) const {
     InsertFigures figures;
     figures.allowed = allowed_;
     figures.bound_of = bound_of(joint_, options_);
-    figures.bound_rad = shown_rad(choice.bound_t);
+    figures.bound_rad = shown_rad(bound_t);
     figures.step_mm = fits.step_mm();
     figures.layer_mm = layers_of(options_).layer_mm;
     const double plate = input_.solid.box().min.z;

@@ -142,10 +142,12 @@ constexpr double same_place_mm = 2;
 /// Judges what was written; where it fails, the model as it came too, to tell what carving did from what was there.
 Result<Judgement> judge_output(const TriangleMesh& written, const Input& input, const StandRun& run,
                                const StandOptions& options, const Job& job) {
-  const JudgeOptions judging = judge_options(options);
+  JudgeOptions judging = judge_options(options);
+  judging.inserts = run.inserts;
   auto judgement = judge(written, judging, &run.shell->mesh, job.part(0, 0.5));
   if (!judgement || judgement->new_failures().empty()) return judgement;
   const bool is_changed = run.carving || run.report.deformation || run.report.inserts;
+  judging.inserts.clear();
   const auto before = is_changed ? judge(input.solid.mesh(), judging, nullptr, job.part(0.5, 1)) : judgement;
   if (!before) return tl::unexpected(before.error());
   const double moved_mm = run.report.deformation ? run.report.deformation->max_mm : 0;

@@ -133,12 +133,14 @@ Candidates PlaceChooser::best_for(const AffineForm& form, int most) const {
   return best[std::max_element(value.begin(), value.end()) - value.begin()];
 }
 
+Moments PlaceChooser::relaxed_load(const AffineForm& form, int most) const {
+  Moments sum;
+  for (const std::uint32_t c : best_for(form, most)) sum += load_of(candidates_[c]).all();
+  return sum;
+}
+
 Result<PlaceChooser::Plane> PlaceChooser::search(int most, const Job& job) {
-  const BestBody best_body = [&](const AffineForm& form) {
-    Moments body = solid_;
-    for (const std::uint32_t c : best_for(form, most)) body += load_of(candidates_[c]).all();
-    return body;
-  };
+  const BestBody best_body = [&](const AffineForm& form) { return solid_ + relaxed_load(form, most); };
   const auto found = PlaneSearch(problem_, best_body, solid_).most_stable(bound_tolerance, job);
   if (!found) return tl::unexpected(found.error());
   return Plane{found->kept, found->bound, best_for(found->kept, most)};
@@ -186,9 +188,11 @@ LoadedBody PlaceChooser::body_of(const Candidates& chosen) const {
   return body;
 }
 
-double PlaceChooser::t_of(const Candidates& chosen) const {
-  return loaded_t(problem_, body_of(chosen), loads_.kind);
+double PlaceChooser::worth_of(const LoadedBody& body) const {
+  return liked_ ? (*liked_)(body.all()) : loaded_t(problem_, body, loads_.kind);
 }
+
+double PlaceChooser::worth_of(const Candidates& chosen) const { return worth_of(body_of(chosen)); }
 
 bool PlaceChooser::asked_fits(std::uint32_t candidate) {
   if (known_[candidate] == 0) known_[candidate] = fits_.fits(candidates_[candidate]) ? 1 : -1;
@@ -223,16 +227,16 @@ void PlaceChooser::fill_by_plane(Candidates& chosen, const Candidates& by_gain, 
   }
 }
 
-/// Adds what makes t largest, as long as anything makes it larger.
-void PlaceChooser::fill_by_t(Candidates& chosen, const Candidates& among, int most) {
+/// Adds what is worth most, as long as anything is worth more than nothing.
+void PlaceChooser::fill_by_worth(Candidates& chosen, const Candidates& among, int most) {
   while (inserts_of(chosen) < most) {
-    const double now = t_of(chosen);
+    const double now = worth_of(chosen);
     const LoadedBody body = body_of(chosen);
     std::vector<std::pair<double, std::uint32_t>> better;
     for (const std::uint32_t c : among) {
       if (known_[c] < 0) continue;
       const LoadedBody load = load_of(candidates_[c]);
-      const double t = loaded_t(problem_, {body.solid + load.solid, body.inserts + load.inserts}, loads_.kind);
+      const double t = worth_of({body.solid + load.solid, body.inserts + load.inserts});
       if (t > now + worth) better.emplace_back(t, c);
     }
     const auto is_worse = [](const auto& a, const auto& b) { return a.first != b.first ? a.first < b.first : a.second > b.second; };
@@ -248,43 +252,53 @@ void PlaceChooser::fill_by_t(Candidates& chosen, const Candidates& among, int mo
 
 Result<void> PlaceChooser::exchange(Candidates& chosen, const Candidates& among, int most, const Job& job) {
   for (int sweep = 0; sweep < most_sweeps; ++sweep) {
-    const double before = t_of(chosen);
+    const double before = worth_of(chosen);
     for (std::size_t i = 0; i < chosen.size(); ++i)
       for (std::size_t j = i; j < (chosen.size() <= most_for_pairs ? chosen.size() : i + 1); ++j) {
         if (!job.report((sweep + double(i) / double(chosen.size())) / most_sweeps, "place inserts")) return cancelled();
         Candidates other = without(chosen, i, j);
-        fill_by_t(other, among, most);
-        if (t_of(other) > t_of(chosen) + worth) chosen = std::move(other);
+        fill_by_worth(other, among, most);
+        if (worth_of(other) > worth_of(chosen) + worth) chosen = std::move(other);
         if (i >= chosen.size()) break;
       }
-    if (t_of(chosen) <= before + worth) break;
+    if (worth_of(chosen) <= before + worth) break;
   }
   return {};
 }
 
-Result<PocketChoice> PlaceChooser::choose(int most, const Job& job) {
-  const double bare = loaded_t(problem_, {solid_, {}}, loads_.kind);
-  PocketChoice best{{}, {solid_, {}}, 0, bare, bare};
-  if (candidates_.empty()) return best;
-  const auto plane = search(most, job.part(0, 0.3));
-  if (!plane) return tl::unexpected(plane.error());
-  best.bound_t = std::max(bare, plane->bound_t);
-  const Candidates among = shortlist(plane->form);
-  double from = 0.3;
-  for (const Candidates& start : {Candidates{}, plane->relaxed}) {
+/// From two starts: what makes most of it one by one, and what the relaxed choice has.
+Result<PocketChoice> PlaceChooser::improved(const Plane& plane, int most, const Job& job) {
+  const Candidates among = shortlist(plane.form);
+  Candidates best;
+  double from = 0;
+  for (const Candidates& start : {Candidates{}, plane.relaxed}) {
     Candidates chosen;
     fill_by_plane(chosen, start, most);
-    if (start.empty()) fill_by_t(chosen, among, most);
-    fill_by_plane(chosen, among, most);
-    if (const auto done = exchange(chosen, among, most, job.part(from, from + 0.35)); !done)
+    fill_by_worth(chosen, among, most);
+    if (!liked_) fill_by_plane(chosen, among, most);
+    if (const auto done = exchange(chosen, among, most, job.part(from, from + 0.5)); !done)
       return tl::unexpected(done.error());
-    from += 0.35;
-    if (const double t = t_of(chosen); t > best.t + worth) {
-      best = {{}, body_of(chosen), inserts_of(chosen), t, best.bound_t};
-      for (const std::uint32_t c : chosen) best.places.push_back(candidates_[c]);
-    }
+    from += 0.5;
+    if (worth_of(chosen) > worth_of(best) + worth) best = chosen;
   }
-  return best;
+  PocketChoice choice{{}, body_of(best), inserts_of(best), 0, plane.bound_t};
+  choice.t = loaded_t(problem_, choice.body, loads_.kind);
+  for (const std::uint32_t c : best) choice.places.push_back(candidates_[c]);
+  return choice;
+}
+
+Result<PocketChoice> PlaceChooser::choose(int most, const Job& job) {
+  liked_.reset();
+  auto plane = search(most, job.part(0, 0.3));
+  if (!plane) return tl::unexpected(plane.error());
+  plane->bound_t = std::max(plane->bound_t, loaded_t(problem_, {solid_, {}}, loads_.kind));
+  return improved(*plane, most, job.part(0.3, 1));
+}
+
+Result<PocketChoice> PlaceChooser::choose_for(const AffineForm& form, int most, const Job& job) {
+  const double scale = form(relaxed_load(form, most));  // the most that any choice adds
+  liked_ = scale > 0 ? (1 / scale) * form : form;
+  return improved({form, std::numeric_limits<double>::infinity(), best_for(form, most)}, most, job);
 }
 
 }  // namespace aplomb

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "aplomb/balance/poses.h"
@@ -58,6 +59,13 @@ class PlaceChooser {
   /// \par Cost  a bound, then some hundred scans of at most 20,000 candidates.
   Result<PocketChoice> choose(int most, const Job& job = {});
 
+  /// The same, but of the choices that a form likes best: with the greatest integral of it over what they put in, less
+  /// what they take. \post bound_t is that of no choice: infinity.
+  Result<PocketChoice> choose_for(const AffineForm& form, int most, const Job& job = {});
+
+  /// What the loads of the relaxed choice add up to that a form likes best.
+  Moments relaxed_load(const AffineForm& form, int most) const;
+
   /// Whether a pocket fits at any of the candidates. \par Cost  asks each of those that were not asked about.
   bool any_fits();
 
@@ -81,10 +89,12 @@ class PlaceChooser {
   bool asked_fits(std::uint32_t candidate);
   bool may_join(const std::vector<std::uint32_t>& chosen, std::uint32_t candidate, int most);
   LoadedBody body_of(const std::vector<std::uint32_t>& chosen) const;
-  double t_of(const std::vector<std::uint32_t>& chosen) const;
+  double worth_of(const LoadedBody& body) const;
+  double worth_of(const std::vector<std::uint32_t>& chosen) const;
   int inserts_of(const std::vector<std::uint32_t>& chosen) const;
   void fill_by_plane(std::vector<std::uint32_t>& chosen, const std::vector<std::uint32_t>& by_gain, int most);
-  void fill_by_t(std::vector<std::uint32_t>& chosen, const std::vector<std::uint32_t>& among, int most);
+  void fill_by_worth(std::vector<std::uint32_t>& chosen, const std::vector<std::uint32_t>& among, int most);
+  Result<PocketChoice> improved(const Plane& plane, int most, const Job& job);
   Result<void> exchange(std::vector<std::uint32_t>& chosen, const std::vector<std::uint32_t>& among, int most,
                         const Job& job);
 
@@ -93,6 +103,7 @@ class PlaceChooser {
   BalanceProblem problem_;
   Moments solid_;
   PocketLoads loads_;
+  std::optional<AffineForm> liked_;  // what makes a choice good; none: its t
   std::vector<Cell> cells_;
   std::vector<std::int8_t> known_;  // of each candidate: 0 not asked yet, 1 fits, -1 does not
 };
