@@ -188,10 +188,12 @@ class Inserter {
     const double plate = input_.solid.box().min.z;
     for (const PocketPlace& place : choice.places) {
       const Pocket& pocket = pockets_[place.pocket];
-      const double floor = place.floor_mm.z - plate, open = floor + pocket.open_mm;
+      const auto height = [&](double z_mm) { return std::round((z_mm - plate) * 1e6) / 1e6; };  // 39.8 + 1e-14
+      const double floor = height(place.floor_mm.z), open = height(place.floor_mm.z + pocket.open_mm);
       figures.pockets.push_back({pocket.insert.name, pocket.stacked,
                                  place.floor_mm + Vec3{0, 0, pocket.inserts_at_mm}, open, floor,
-                                 2 * pocket.radius_mm, pocket.mass_g(), open + figures.layer_mm});
+                                 2 * pocket.radius_mm, pocket.mass_g(),
+                                 height(plate + open + figures.layer_mm)});
     }
     std::ranges::sort(figures.pockets, {}, &PocketFigures::pause_mm);
     return figures;

@@ -144,6 +144,8 @@ std::string shaping(const CeilingFigures& c) {
 }
 
 std::string inserting(const InsertFigures& inserts) {
+  if (inserts.pockets.empty())
+    return line("inserts", "none of " + std::to_string(inserts.allowed) + " used: where they fit, none helps");
   std::string text;
   for (const PocketFigures& p : inserts.pockets)
     text += line(&p == &inserts.pockets.front() ? "inserts" : "",
@@ -159,7 +161,7 @@ std::string inserting(const InsertFigures& inserts) {
     known += "alone they come to " + degrees(inserts.reached_rad) + " degrees from level, and as many elsewhere to " +
              degrees(inserts.bound_rad) + " at best";
   else known += inserts.reached_rad >= 0 ? "alone they meet every pose" : "alone they do not meet every pose";
-  return text + line(text.empty() ? "inserts" : "", known + " (places " + figure(inserts.step_mm) + " mm apart)");
+  return text + line("", known + " (places " + figure(inserts.step_mm) + " mm apart)");
 }
 
 std::string work(const Report& report) {
