@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <tuple>
@@ -16,6 +17,7 @@ constexpr double solid_error = 0.02, insert_error = 0.01;  // PRINTABILITY, "Rob
 constexpr double bound_tolerance = 1e-5;
 constexpr double worth = 1e-7;  // of t: less is no gain
 constexpr std::size_t most_listed = 20'000;
+constexpr std::size_t beam_weighings = 1'000'000;
 constexpr std::size_t most_for_pairs = 8;
 constexpr int most_sweeps = 6;
 constexpr double never = -std::numeric_limits<double>::infinity();
@@ -227,27 +229,64 @@ void PlaceChooser::fill_by_plane(Candidates& chosen, const Candidates& by_gain, 
   }
 }
 
-/// Adds what is worth most, as long as anything is worth more than nothing.
+/// Those that would make most of a choice, and with what worth, the best first; none that would make less of it.
+std::vector<std::pair<double, std::uint32_t>> PlaceChooser::best_to_join(const Candidates& chosen,
+                                                                         const Candidates& among, int most,
+                                                                         std::size_t count) {
+  const LoadedBody body = body_of(chosen);
+  const double now = worth_of(body);
+  std::vector<std::pair<double, std::uint32_t>> better;  // the worth with its sign changed: sorts the best first
+  for (const std::uint32_t c : among) {
+    if (known_[c] < 0) continue;
+    const LoadedBody load = load_of(candidates_[c]);
+    const double then = worth_of({body.solid + load.solid, body.inserts + load.inserts});
+    if (then > now + worth) better.emplace_back(-then, c);
+  }
+  std::ranges::make_heap(better, std::greater{});
+  std::vector<std::pair<double, std::uint32_t>> best;
+  while (!better.empty() && best.size() < count) {
+    if (may_join(chosen, better.front().second, most)) best.emplace_back(-better.front().first, better.front().second);
+    std::ranges::pop_heap(better, std::greater{});
+    better.pop_back();
+  }
+  return best;
+}
+
 void PlaceChooser::fill_by_worth(Candidates& chosen, const Candidates& among, int most) {
   while (inserts_of(chosen) < most) {
-    const double now = worth_of(chosen);
-    const LoadedBody body = body_of(chosen);
-    std::vector<std::pair<double, std::uint32_t>> better;
-    for (const std::uint32_t c : among) {
-      if (known_[c] < 0) continue;
-      const LoadedBody load = load_of(candidates_[c]);
-      const double t = worth_of({body.solid + load.solid, body.inserts + load.inserts});
-      if (t > now + worth) better.emplace_back(t, c);
-    }
-    const auto is_worse = [](const auto& a, const auto& b) { return a.first != b.first ? a.first < b.first : a.second > b.second; };
-    std::ranges::make_heap(better, is_worse);
-    while (!better.empty() && !may_join(chosen, better.front().second, most)) {
-      std::ranges::pop_heap(better, is_worse);
-      better.pop_back();
-    }
-    if (better.empty()) return;
-    chosen.push_back(better.front().second);
+    const auto best = best_to_join(chosen, among, most, 1);
+    if (best.empty()) return;
+    chosen.push_back(best.front().second);
   }
+}
+
+/// Keeps the best choices of one pocket, of two, and so on.
+Result<Candidates> PlaceChooser::best_of_beam(const Candidates& among, int most, const Job& job) {
+  const std::size_t scans = beam_weighings / std::max<std::size_t>(1, among.size());
+  const std::size_t width = std::clamp<std::size_t>(scans / static_cast<std::size_t>(most), 2, 200);
+  std::vector<Candidates> beam{{}};
+  Candidates best;
+  for (int step = 0; step < most; ++step) {
+    std::map<Candidates, double> next;
+    for (const Candidates& chosen : beam) {
+      if (!job.report(double(step) / most, "place inserts")) return cancelled();
+      if (inserts_of(chosen) >= most) continue;
+      for (const auto& [then, c] : best_to_join(chosen, among, most, width)) {
+        Candidates longer = chosen;
+        longer.insert(std::ranges::lower_bound(longer, c), c);
+        next.emplace(std::move(longer), then);
+      }
+    }
+    if (next.empty()) break;
+    std::vector<std::pair<double, Candidates>> ranked;
+    for (auto& [chosen, value] : next) ranked.emplace_back(-value, chosen);
+    std::ranges::sort(ranked);
+    ranked.resize(std::min(ranked.size(), width));
+    beam.clear();
+    for (auto& [value, chosen] : ranked) beam.push_back(std::move(chosen));
+    if (worth_of(beam.front()) > worth_of(best)) best = beam.front();
+  }
+  return best;
 }
 
 Result<void> PlaceChooser::exchange(Candidates& chosen, const Candidates& among, int most, const Job& job) {
@@ -266,20 +305,21 @@ Result<void> PlaceChooser::exchange(Candidates& chosen, const Candidates& among,
   return {};
 }
 
-/// From two starts: what makes most of it one by one, and what the relaxed choice has.
 Result<PocketChoice> PlaceChooser::improved(const Plane& plane, int most, const Job& job) {
   const Candidates among = shortlist(plane.form);
+  auto from_beam = best_of_beam(among, most, job.part(0, 0.4));
+  if (!from_beam) return tl::unexpected(from_beam.error());
+  Candidates from_plane;
+  fill_by_plane(from_plane, plane.relaxed, most);
   Candidates best;
-  double from = 0;
-  for (const Candidates& start : {Candidates{}, plane.relaxed}) {
-    Candidates chosen;
-    fill_by_plane(chosen, start, most);
+  double from = 0.4;
+  for (Candidates chosen : {std::move(*from_beam), std::move(from_plane)}) {
     fill_by_worth(chosen, among, most);
     if (!liked_) fill_by_plane(chosen, among, most);
-    if (const auto done = exchange(chosen, among, most, job.part(from, from + 0.5)); !done)
+    if (const auto done = exchange(chosen, among, most, job.part(from, from + 0.3)); !done)
       return tl::unexpected(done.error());
-    from += 0.5;
-    if (worth_of(chosen) > worth_of(best) + worth) best = chosen;
+    from += 0.3;
+    if (worth_of(chosen) > worth_of(best) + worth) best = std::move(chosen);
   }
   PocketChoice choice{{}, body_of(best), inserts_of(best), 0, plane.bound_t};
   choice.t = loaded_t(problem_, choice.body, loads_.kind);

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "aplomb/balance/poses.h"
@@ -43,8 +44,9 @@ struct PocketLoads {
 ///
 /// The loads of pockets are points in the 4-space of moments, so PlaneSearch bounds t as it does for carving: for a
 /// plane l, no choice does better than the solid with those that l likes best, at most one in each cell of a lattice so
-/// small that no two pockets have room in a cell. That relaxes the choice, and is certified. The choice itself is greedy
-/// by the last plane, then better by taking one or two pockets out and filling up again, until that gains nothing.
+/// small that no two pockets have room in a cell. That relaxes the choice, and is certified. The choice itself comes of
+/// a beam search, pocket by pocket, and of what the relaxed choice has room for; both are then made better by taking
+/// one or two pockets out and filling up again, until that gains nothing.
 class PlaceChooser {
  public:
   /// \pre candidates are of `fits`; the problem has rows; `solid` is the material as it would be without pockets.
@@ -93,7 +95,11 @@ class PlaceChooser {
   double worth_of(const std::vector<std::uint32_t>& chosen) const;
   int inserts_of(const std::vector<std::uint32_t>& chosen) const;
   void fill_by_plane(std::vector<std::uint32_t>& chosen, const std::vector<std::uint32_t>& by_gain, int most);
+  std::vector<std::pair<double, std::uint32_t>> best_to_join(const std::vector<std::uint32_t>& chosen,
+                                                             const std::vector<std::uint32_t>& among, int most,
+                                                             std::size_t count);
   void fill_by_worth(std::vector<std::uint32_t>& chosen, const std::vector<std::uint32_t>& among, int most);
+  Result<std::vector<std::uint32_t>> best_of_beam(const std::vector<std::uint32_t>& among, int most, const Job& job);
   Result<PocketChoice> improved(const Plane& plane, int most, const Job& job);
   Result<void> exchange(std::vector<std::uint32_t>& chosen, const std::vector<std::uint32_t>& among, int most,
                         const Job& job);
