@@ -176,7 +176,6 @@ Result<Inserted> put_in(StandRun& run, const Input& input, const StandOptions& o
   run.inserts = inserted->input.inserts;
   run.report.inserts = inserted->figures;
   if (!run.inserts.empty()) run.report.wall = WallFigures{options.wall_mm, inserted->wall_mm};
-  else run.report.hints.emplace_back("no insert makes it stand better than none");
   return inserted;
 }
 
