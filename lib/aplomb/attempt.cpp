@@ -96,7 +96,7 @@ Result<Attempt> carve_shell(const SolidVolume& volume, const Input& input, const
                             const Job& job) {
   const double required_rad = std::atan(joint.required_t);
   const int most_rounds = options.profile ? most_sliced_carvings : most_carvings;
-  const Moments inserts = inserts_as_solid(input, options);
+  const Moments inserts = inserts_as_solid(input.inserts, options);
   double aimed_rad = required_rad + allowance.beyond_rad;
   for (int round = 1;; ++round) {
     const CarveOptions carving_options{options.aim, std::tan(aimed_rad), options.least_volume_mm3};

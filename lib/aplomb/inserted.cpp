@@ -164,7 +164,7 @@ class Inserter {
     }
     const auto body = printed(made.input.solid, made.input.moments, options_, job.part(0.5, 1));
     if (!body) return tl::unexpected(body.error());
-    const double t = loaded_t(joint_.problem, {*body, inserts_as_solid(made.input, options_)}, kind_of(options_));
+    const double t = loaded_t(joint_.problem, {*body, inserts_as_solid(made.input.inserts, options_)}, kind_of(options_));
     made.reaches = t >= joint_.required_t;
     made.figures.reached_rad = shown_rad(t);
     return made;
@@ -230,9 +230,9 @@ double printed_density(const StandOptions& options) {
   return is_told ? options.profile->density_g_per_cm3 : options.density_g_per_cm3;
 }
 
-Moments inserts_as_solid(const Input& input, const StandOptions& options) {
+Moments inserts_as_solid(std::span<const Region> inserts, const StandOptions& options) {
   Moments sum;
-  for (const Region& region : input.inserts)
+  for (const Region& region : inserts)
     sum += region.density_g_per_cm3 / printed_density(options) * region.moments;
   return sum;
 }

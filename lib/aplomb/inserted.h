@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "aplomb/core/stage_clock.h"
 #include "aplomb/inserts/place_chooser.h"
 #include "aplomb/input.h"
@@ -27,8 +29,8 @@ struct Inserted {
 ///         process is not fdm: a print must pause to take them in; cancelled.
 Result<Inserted> with_inserts(const Input& input, const StandOptions& options, StageClock& clock, const Job& job);
 
-/// The inserts of an input as so much of the solid's material as weighs what they do.
-Moments inserts_as_solid(const Input& input, const StandOptions& options);
+/// Inserts as so much of the solid's material as weighs what they do.
+Moments inserts_as_solid(std::span<const Region> inserts, const StandOptions& options);
 
 /// In g/cm3: what the profile says, else the option.
 double printed_density(const StandOptions& options);

@@ -10,6 +10,7 @@
 #include "aplomb/core/stage_clock.h"
 #include "aplomb/core/threads.h"
 #include "aplomb/ending.h"
+#include "aplomb/inserted.h"
 #include "aplomb/inserts/pause.h"
 #include "aplomb/io/write_mesh.h"
 #include "aplomb/printability/judge.h"
@@ -115,13 +116,14 @@ Result<Report> measure_and_write(const StandRun& made, const Input& input, const
 constexpr int picture_size = 600;  // pixels across one of its parts
 
 /// Draws what came, and what became of it where there is something.
-Result<void> draw(const Arguments& a, const Input& input, const StandRun* made, const std::vector<Pose>& poses,
+Result<void> draw(const Arguments& a, const Input& input, const StandRun* made, const StandOptions& options,
                   const Job& job) {
   if (a.job.picture.empty()) return {};
   const TriangleMesh& before = input.solid.mesh();
   const auto image = made && made->shell
-                         ? picture::before_and_after(before, made->shell->mesh, poses, picture_size, {}, job)
-                         : picture::as_it_is(before, poses, picture_size, {}, job);
+                         ? picture::before_and_after(before, made->shell->mesh, options.poses, picture_size, {}, job,
+                                                      inserts_as_solid(made->inserts, options))
+                         : picture::as_it_is(before, options.poses, picture_size, {}, job);
   if (!image) return tl::unexpected(image.error());
   const auto bytes = picture::encode_png(*image);
   if (!bytes) return tl::unexpected(bytes.error());
@@ -142,6 +144,7 @@ Result<void> write_page(const Arguments& a, const Report& report, const Input& i
   page::PageContent content{
       .title = a.job.model.filename().string(), .before = &input.solid.mesh(), .poses = options.poses};
   if (made && made->shell) content.after = &made->shell->mesh;
+  if (made) content.inserts = inserts_as_solid(made->inserts, options);
   content.report = report;
   content.judgement = report.judgement;
   content.required_tip_rad = report.required_tip_rad;
@@ -163,7 +166,7 @@ int run_stand(const Arguments& a, const Input& input, const StandOptions& option
     report = std::move(*measured);
     report.stage_seconds = std::move(seconds);
   }
-  if (const auto drawn = draw(a, input, writes ? &*made : nullptr, options.poses, job.part(0.9, 0.95)); !drawn)
+  if (const auto drawn = draw(a, input, writes ? &*made : nullptr, options, job.part(0.9, 0.95)); !drawn)
     return report_error(drawn.error());
   if (const auto paged = write_page(a, report, input, writes ? &*made : nullptr, options, job.part(0.95, 1)); !paged)
     return report_error(paged.error());
@@ -174,7 +177,7 @@ int run_stand(const Arguments& a, const Input& input, const StandOptions& option
 int run_check(const Arguments& a, const Input& input, const StandOptions& options, const Job& job) {
   auto report = check(input, options, job.part(0, 0.5));
   if (!report) return report_error(report.error());
-  if (const auto drawn = draw(a, input, nullptr, options.poses, job.part(0.5, 0.8)); !drawn)
+  if (const auto drawn = draw(a, input, nullptr, options, job.part(0.5, 0.8)); !drawn)
     return report_error(drawn.error());
   if (const auto paged = write_page(a, *report, input, nullptr, options, job.part(0.8, 1)); !paged)
     return report_error(paged.error());

@@ -111,7 +111,8 @@ Result<std::string> stresses(const PageContent& content, const Job& job) {
 Result<std::string> pictures(const PageContent& content, const std::vector<picture::Mark>& marks, const Job& job) {
   const auto image =
       content.before && content.after
-          ? picture::before_and_after(*content.before, *content.after, content.poses, picture_size, marks, job)
+          ? picture::before_and_after(*content.before, *content.after, content.poses, picture_size, marks, job,
+                                      content.inserts)
           : picture::as_it_is(content.after ? *content.after : *content.before, content.poses, picture_size, marks,
                               job);
   if (!image) return tl::unexpected(image.error());

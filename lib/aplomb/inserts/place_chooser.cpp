@@ -48,6 +48,11 @@ PlaceChooser::PlaceChooser(const PocketFits& fits, std::vector<PocketPlace> cand
       loads_(std::move(loads)),
       known_(candidates_.size(), 0) {
   assert(loads_.stocks.size() == fits.pockets().size() && loads_.density_g_per_cm3 > 0);
+  for (const Pocket& pocket : fits.pockets()) {
+    const double volume = 1e3 * pocket.mass_g() / loads_.density_g_per_cm3;
+    loads_at_origin_.push_back({-loads_.filled_ratio * pocket_moments(pocket, {}),
+                                {volume, volume * Vec3{0, 0, pocket.inserts_at_mm}}});
+  }
   // Two pockets of a stock in one cell: beside each other they overlap or leave less than 0.7 walls, and one above
   // the other, too; together that is less than a wall.
   std::vector<double> wide(loads_.most.size(), std::numeric_limits<double>::infinity()), high = wide;
@@ -69,10 +74,9 @@ PlaceChooser::PlaceChooser(const PocketFits& fits, std::vector<PocketPlace> cand
 }
 
 LoadedBody PlaceChooser::load_of(const PocketPlace& place) const {
-  const Pocket& pocket = fits_.pockets()[place.pocket];
-  const double volume = 1e3 * pocket.mass_g() / loads_.density_g_per_cm3;
-  return {-loads_.filled_ratio * pocket_moments(pocket, place.floor_mm),
-          {volume, volume * (place.floor_mm + Vec3{0, 0, pocket.inserts_at_mm})}};
+  const LoadedBody& load = loads_at_origin_[place.pocket];
+  return {{load.solid.volume_mm3, load.solid.first_mm4 + load.solid.volume_mm3 * place.floor_mm},
+          {load.inserts.volume_mm3, load.inserts.first_mm4 + load.inserts.volume_mm3 * place.floor_mm}};
 }
 
 double PlaceChooser::gain(const AffineForm& form, std::uint32_t candidate) const {

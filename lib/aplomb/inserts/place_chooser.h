@@ -105,6 +105,7 @@ class PlaceChooser {
                         const Job& job);
 
   const PocketFits& fits_;
+  std::vector<LoadedBody> loads_at_origin_;  // of each pocket
   std::vector<PocketPlace> candidates_;
   BalanceProblem problem_;
   Moments solid_;
