@@ -78,8 +78,8 @@ class Inserter {
     const auto solid = printed(input_.solid, input_.moments, options_, job.part(0, 0.1));
     if (!solid) return tl::unexpected(solid.error());
     const Layers layers = layers_of(options_);
-    const auto fits = PocketFits::make(input_.solid, pockets_,
-                                       {options_.wall_mm, layers.layer_mm, layers.first_mm}, job.part(0.1, 0.4));
+    const auto fits = PocketFits::make(input_.solid, pockets_, {options_.wall_mm, layers.layer_mm, layers.first_mm},
+                                       job.part(0.1, 0.4));
     if (!fits) return tl::unexpected(fits.error());
     loads_.density_g_per_cm3 = printed_density(options_);
     loads_.filled_ratio = std::min(1.0, solid->volume_mm3 / input_.moments.volume_mm3);
@@ -130,8 +130,7 @@ class Inserter {
   /// The plane that is best for a void and inserts together, were there room for both.
   Result<AffineForm> plane_of_void(const PlaceChooser& chooser, const Moments& solid, const Job& job) {
     const double voxel = std::min(2 * voxel_mm(options_, input_.solid.box()), options_.wall_mm / 2);
-    const auto volume =
-        voxelize(input_.solid, {options_.wall_mm, voxel, 0, options_.memory_bytes}, job.part(0, 0.7));
+    const auto volume = voxelize(input_.solid, {options_.wall_mm, voxel, 0, options_.memory_bytes}, job.part(0, 0.7));
     if (!volume) return tl::unexpected(volume.error());
     const MomentTree tree(carvable_blocks(*volume), volume->frame());
     const BestBody best_body = [&](const AffineForm& form) {
@@ -157,14 +156,14 @@ class Inserter {
     if (!choice.places.empty()) {
       const auto solid = check_solid(joined(input_.solid.mesh(), reversed(inner)), job.part(0, 0.5));
       if (!solid) return tl::unexpected(solid.error());
-      if (!solid->solid)
-        return fail(ErrorCode::internal, "with pockets it is no solid: " + describe(solid->defects));
+      if (!solid->solid) return fail(ErrorCode::internal, "with pockets it is no solid: " + describe(solid->defects));
       made.input.solid = *solid->solid;
       made.input.moments = input_.moments - moments(inner);
     }
     const auto body = printed(made.input.solid, made.input.moments, options_, job.part(0.5, 1));
     if (!body) return tl::unexpected(body.error());
-    const double t = loaded_t(joint_.problem, {*body, inserts_as_solid(made.input.inserts, options_)}, kind_of(options_));
+    const double t =
+        loaded_t(joint_.problem, {*body, inserts_as_solid(made.input.inserts, options_)}, kind_of(options_));
     made.reaches = t >= joint_.required_t;
     made.figures.reached_rad = shown_rad(t);
     return made;
@@ -190,9 +189,8 @@ class Inserter {
       const Pocket& pocket = pockets_[place.pocket];
       const auto height = [&](double z_mm) { return std::round((z_mm - plate) * 1e6) / 1e6; };  // 39.8 + 1e-14
       const double floor = height(place.floor_mm.z), open = height(place.floor_mm.z + pocket.open_mm);
-      figures.pockets.push_back({pocket.insert.name, pocket.stacked,
-                                 place.floor_mm + Vec3{0, 0, pocket.inserts_at_mm}, open, floor,
-                                 2 * pocket.radius_mm, pocket.mass_g(),
+      figures.pockets.push_back({pocket.insert.name, pocket.stacked, place.floor_mm + Vec3{0, 0, pocket.inserts_at_mm},
+                                 open, floor, 2 * pocket.radius_mm, pocket.mass_g(),
                                  height(plate + open + figures.layer_mm)});
     }
     std::ranges::sort(figures.pockets, {}, &PocketFigures::pause_mm);
@@ -206,13 +204,14 @@ class Inserter {
   tl::unexpected<Error> refusal(const PocketFits& fits) const {
     const auto least = std::ranges::min_element(pockets_, {}, &Pocket::radius_mm);
     const double widest = fits.widest_mm(least->height_mm);
-    const std::string most = widest > 0 ? fmt::format("the widest pocket as high that fits is about {:.1f} mm across",
-                                                      widest)
-                                        : "no pocket as high fits at all";
-    return fail(ErrorCode::unusable_input,
-                fmt::format("there is no place for a {}: its pocket is {:.1f} mm across and {:.1f} mm high, with {:g} mm "
-                            "of material all round; {}",
-                            least->insert.name, 2 * least->radius_mm, least->height_mm, options_.wall_mm, most));
+    const std::string most = widest > 0
+                                 ? fmt::format("the widest pocket as high that fits is about {:.1f} mm across", widest)
+                                 : "no pocket as high fits at all";
+    return fail(
+        ErrorCode::unusable_input,
+        fmt::format("there is no place for a {}: its pocket is {:.1f} mm across and {:.1f} mm high, with {:g} mm "
+                    "of material all round; {}",
+                    least->insert.name, 2 * least->radius_mm, least->height_mm, options_.wall_mm, most));
   }
 
   const Input& input_;
@@ -232,8 +231,7 @@ double printed_density(const StandOptions& options) {
 
 Moments inserts_as_solid(std::span<const Region> inserts, const StandOptions& options) {
   Moments sum;
-  for (const Region& region : inserts)
-    sum += region.density_g_per_cm3 / printed_density(options) * region.moments;
+  for (const Region& region : inserts) sum += region.density_g_per_cm3 / printed_density(options) * region.moments;
   return sum;
 }
 

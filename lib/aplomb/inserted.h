@@ -3,8 +3,8 @@
 #include <span>
 
 #include "aplomb/core/stage_clock.h"
-#include "aplomb/inserts/place_chooser.h"
 #include "aplomb/input.h"
+#include "aplomb/inserts/place_chooser.h"
 #include "aplomb/report/report.h"
 #include "aplomb/stand_options.h"
 

@@ -240,8 +240,7 @@ Result<StandRun> stand(const Input& input, const StandOptions& options, const Jo
   }
   if (is_to_carve) {
     const double from = options.inserts.empty() ? 0 : 0.2;
-    auto carved =
-        attempt_carving(shaped, options, clock, job.part(from, options.deform == Deform::never ? 0.8 : 0.4));
+    auto carved = attempt_carving(shaped, options, clock, job.part(from, options.deform == Deform::never ? 0.8 : 0.4));
     if (!carved) return tl::unexpected(carved.error());
     made = std::move(*carved);
   }
@@ -300,7 +299,8 @@ Result<Report> measure_output(const TriangleMesh& written, const Input& input, c
   auto judgement = judge_output(written, input, run, options, job.part(0.5, 1));
   if (!judgement) return tl::unexpected(judgement.error());
   report.judgement = std::move(*judgement);
-  if (report.carving || report.deformation || report.inserts) report.outcome = all_hold(report) ? Outcome::stands : Outcome::best_effort;
+  if (report.carving || report.deformation || report.inserts)
+    report.outcome = all_hold(report) ? Outcome::stands : Outcome::best_effort;
   if (options.profile) note_sliced(report);
   return report;
 }

@@ -34,7 +34,8 @@ TEST_F(InsertFlag, ReportsPocketsAndPausesAsTextAndJson) {
   const std::string text = text_of("stderr");
   EXPECT_NE(text.find("pause at z = "), std::string::npos) << text;
   EXPECT_NE(text.find("PrusaSlicer finds the pauses in the 3MF"), std::string::npos) << text;
-  const double mass = report().at("after").at("mass_g").get<double>() - report().at("before").at("mass_g").get<double>();
+  const double mass =
+      report().at("after").at("mass_g").get<double>() - report().at("before").at("mass_g").get<double>();
   EXPECT_GT(mass, count * (4.11 - 1.05));  // less the pockets, of some 810 mm3
 }
 
@@ -65,10 +66,12 @@ TEST_F(InsertFlag, IsKeptByAJob) {
 
 TEST_F(InsertFlag, RefusesWhatCannotBeInOneSentence) {
   const std::string start = "stand " + leaning() + " -o " + path("o.stl") + " ";
-  for (const auto& [flags, exit, word] :
-       {std::tuple{"--insert pence:4", 1, "it is none of penny:4"}, {"--insert ball:0mm", 1, "must lie in [0.5, 500]"},
-        {"--insert penny:0", 1, "1 to 100"}, {"--insert penny --deform auto", 1, "--deform never"},
-        {"--insert penny --process sla", 1, "must be fdm"}, {"--insert coin:38x3mm", 2, "there is no place for"}}) {
+  for (const auto& [flags, exit, word] : {std::tuple{"--insert pence:4", 1, "it is none of penny:4"},
+                                          {"--insert ball:0mm", 1, "must lie in [0.5, 500]"},
+                                          {"--insert penny:0", 1, "1 to 100"},
+                                          {"--insert penny --deform auto", 1, "--deform never"},
+                                          {"--insert penny --process sla", 1, "must be fdm"},
+                                          {"--insert coin:38x3mm", 2, "there is no place for"}}) {
     EXPECT_EQ(run(start + flags), exit) << flags << text_of("stderr");
     EXPECT_NE(text_of("stderr").find(word), std::string::npos) << text_of("stderr");
     EXPECT_FALSE(fs::exists(path("o.stl")));

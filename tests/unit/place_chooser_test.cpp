@@ -55,7 +55,8 @@ TEST(PocketFits, AgreesWithABoxAndWithTheWallMeasured) {
   for (int i = 0; i < 2000; ++i) {
     const PocketPlace place{std::uint32_t(i % 2), {x(random), y(random), z(random)}};
     const Pocket& pocket = fits.pockets()[place.pocket];
-    const double radius = pocket.radius_mm / std::cos(3.14159265358979 / 64);  // a corner of the polygon points along x and y
+    const double radius =
+        pocket.radius_mm / std::cos(3.14159265358979 / 64);  // a corner of the polygon points along x and y
     const double wall = std::min({30 - std::abs(place.floor_mm.x) - radius, 20 - std::abs(place.floor_mm.y) - radius,
                                   place.floor_mm.z, 25 - place.floor_mm.z - pocket.height_mm});
     ASSERT_EQ(fits.fits(place), wall >= 1.6 - 1e-5) << wall;
@@ -81,7 +82,8 @@ TEST(PocketFits, LeavesNoPlaceOfTheLatticeOut) {
   int beyond = 0, fitting = 0;
   for (const PocketPlace& candidate : candidates) {
     fitting += fits.fits(candidate);
-    for (const Vec3 step : {Vec3{2, 0, 0}, Vec3{-2, 0, 0}, Vec3{0, 2, 0}, Vec3{0, -2, 0}, Vec3{0, 0, 2}, Vec3{0, 0, -2}}) {
+    for (const Vec3 step :
+         {Vec3{2, 0, 0}, Vec3{-2, 0, 0}, Vec3{0, 2, 0}, Vec3{0, -2, 0}, Vec3{0, 0, 2}, Vec3{0, 0, -2}}) {
       const PocketPlace next{0, candidate.floor_mm + step};
       if (is_candidate(next)) continue;
       ++beyond;
@@ -103,7 +105,8 @@ TEST(PocketFits, KeepsPocketsApartByTheWall) {
     const PocketPlace a{std::uint32_t(i % 2), {0, 0, 15}},
         b{std::uint32_t(i / 2 % 2), {2 * along(random), 2 * along(random), 15 + along(random)}};
     const double apart = measure_wall(pocket_mesh(fits.pockets()[a.pocket], a.floor_mm),
-                                      pocket_mesh(fits.pockets()[b.pocket], b.floor_mm), 1.6)->least_mm;
+                                      pocket_mesh(fits.pockets()[b.pocket], b.floor_mm), 1.6)
+                             ->least_mm;
     EXPECT_EQ(fits.are_apart(a, b), fits.are_apart(b, a));
     if (fits.are_apart(a, b)) {
       EXPECT_GE(apart, 1.6 * (1 - 1e-4));
@@ -142,7 +145,8 @@ class Chooser : public testing::TestWithParam<int> {};
 
 TEST_P(Chooser, FindsTheBestOfAllChoicesAndBoundsIt) {
   const SolidMesh solid = test::solid_of(test::leaning_prism(34, 40, 60, 22));
-  const PocketFits fits = fits_of(solid, {pocket_for(ball, 1, {}), pocket_for(ball, 2, {}), pocket_for(coin, 1, {})}, 3);
+  const PocketFits fits =
+      fits_of(solid, {pocket_for(ball, 1, {}), pocket_for(ball, 2, {}), pocket_for(coin, 1, {})}, 3);
   std::mt19937 random(static_cast<unsigned>(GetParam()));
   auto places = fits.candidates();
   std::ranges::shuffle(places, random);
@@ -203,8 +207,8 @@ TEST(Chooser, DoesAsWellOnAModelThatIsTurnedOrMirrored) {
   Affine3 mirrored;
   mirrored.linear.rows[0] = {-1, 0, 0};
   double first = 0;
-  for (const Affine3& move : {Affine3{}, test::rotation({0, 0, 1}, std::acos(-1.0)), mirrored,
-                              test::translation({64, -32, 0})}) {
+  for (const Affine3& move :
+       {Affine3{}, test::rotation({0, 0, 1}, std::acos(-1.0)), mirrored, test::translation({64, -32, 0})}) {
     const SolidMesh solid = test::solid_of(transformed(mesh, move));
     const PocketFits fits = fits_of(solid, {pocket_for(ball, 1, {}), pocket_for(ball, 2, {})}, 1.5);
     PlaceChooser chooser(fits, fits.candidates(), rows_of(solid), solid.moments(), loads_of({0, 0}, {3}));

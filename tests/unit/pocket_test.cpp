@@ -53,8 +53,8 @@ TEST(ParseInsert, ReadsCoinsBallsAndDiscs) {
 }
 
 TEST(ParseInsert, SaysWhatIsWrong) {
-  for (const char* text : {"", "pence:4", "penny:x", "penny:1.5", "penny:4:4", "ball", "ball:", "ball:10cm", "ball:10mm:",
-                           "coin:10mm", "coin:10x2mm:5g:1:1", "ball:nan", "ball:1e999"}) {
+  for (const char* text : {"", "pence:4", "penny:x", "penny:1.5", "penny:4:4", "ball", "ball:", "ball:10cm",
+                           "ball:10mm:", "coin:10mm", "coin:10x2mm:5g:1:1", "ball:nan", "ball:1e999"}) {
     const auto stock = parse_insert(text);
     ASSERT_FALSE(stock) << text;
     EXPECT_EQ(stock.error().code, ErrorCode::invalid_option);
@@ -101,7 +101,8 @@ TEST(Pocket, HoldsItsInsertsBelowTheCeilingWithRoomBeside) {
         EXPECT_NEAR(std::remainder(pocket.open_mm, layer), 0, 1e-9);
         EXPECT_NEAR(std::remainder(pocket.height_mm, layer), 0, 1e-9);
         for (double above = 0.01; above < stacked * insert.height_mm; above += 0.013) {
-          const double up = above + lifted, radius = insert.diameter_mm / 2, off = radius - std::fmod(above, 2 * radius);
+          const double up = above + lifted, radius = insert.diameter_mm / 2,
+                       off = radius - std::fmod(above, 2 * radius);
           const double needed = insert.shape == Insert::Shape::disc ? radius : std::sqrt(radius * radius - off * off);
           ASSERT_GE(room_at(pocket, up), needed) << insert.diameter_mm << " at " << up;
         }
@@ -113,8 +114,9 @@ TEST(Pocket, HasACeilingAndAFloorThatPrint) {
   for (const Insert& insert : many()) {
     const Pocket pocket = pocket_for(insert, 1, {});
     const double half = pocket.radius_mm + 3, top = pocket.height_mm + 4;
-    const auto made = judge(test::with_void(test::box({-half, -half, 0}, {half, half, top}), pocket_mesh(pocket, {0, 0, 2})),
-                            JudgeOptions{});
+    const auto made =
+        judge(test::with_void(test::box({-half, -half, 0}, {half, half, top}), pocket_mesh(pocket, {0, 0, 2})),
+              JudgeOptions{});
     ASSERT_TRUE(made.has_value());
     for (const CheckResult& check : made->checks)
       if (check.id.starts_with("void.") && check.id != "void.closed") {

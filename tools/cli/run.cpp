@@ -81,11 +81,12 @@ std::vector<PackagePart> parts_of(const Report& report) {
 /// Where the pauses for inserts are, and for which layers.
 void add_pause_hint(Report& report, MeshFormat format) {
   if (!report.inserts || report.inserts->pockets.empty()) return;
-  report.hints.push_back(fmt::format(
-      "{}; the pockets are for layers of {:g} mm: other layers need --layer or --profile",
-      format == MeshFormat::three_mf ? "PrusaSlicer finds the pauses in the 3MF; in another slicer set them at these heights"
-                                     : "set the pauses at these heights in the slicer; a 3MF would hold them for PrusaSlicer",
-      report.inserts->layer_mm));
+  report.hints.push_back(
+      fmt::format("{}; the pockets are for layers of {:g} mm: other layers need --layer or --profile",
+                  format == MeshFormat::three_mf
+                      ? "PrusaSlicer finds the pauses in the 3MF; in another slicer set them at these heights"
+                      : "set the pauses at these heights in the slicer; a 3MF would hold them for PrusaSlicer",
+                  report.inserts->layer_mm));
 }
 
 /// Measures what the file of the shell holds, and writes it where it prints or the best effort was asked for.
@@ -122,7 +123,7 @@ Result<void> draw(const Arguments& a, const Input& input, const StandRun* made, 
   const TriangleMesh& before = input.solid.mesh();
   const auto image = made && made->shell
                          ? picture::before_and_after(before, made->shell->mesh, options.poses, picture_size, {}, job,
-                                                      inserts_as_solid(made->inserts, options))
+                                                     inserts_as_solid(made->inserts, options))
                          : picture::as_it_is(before, options.poses, picture_size, {}, job);
   if (!image) return tl::unexpected(image.error());
   const auto bytes = picture::encode_png(*image);

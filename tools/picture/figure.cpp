@@ -26,8 +26,7 @@ Affine3 set_down(TriangleMesh& mesh, const Mat3& turn) {
 
 /// `inserts` are where they were before the mesh was set down.
 Result<Region> body_of(const TriangleMesh& mesh, const Moments& inserts, const Affine3& down) {
-  const Moments moved{inserts.volume_mm3,
-                      down.linear * inserts.first_mm4 + inserts.volume_mm3 * down.translation};
+  const Moments moved{inserts.volume_mm3, down.linear * inserts.first_mm4 + inserts.volume_mm3 * down.translation};
   const Region body{moments(mesh) + moved, 1e-3, 0};
   if (!(body.moments.volume_mm3 > 0))
     return fail(ErrorCode::unusable_input, "the mesh encloses no volume: repair it first");

@@ -31,9 +31,8 @@ std::string prusaslicer_pauses(std::vector<Pause> pauses) {
     else joined.push_back(std::move(pause));
   std::string xml = "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<custom_gcodes_per_print_z>\n";
   for (const Pause& pause : joined)
-    xml += fmt::format(
-        "<code print_z=\"{:.6g}\" type=\"1\" extruder=\"1\" color=\"\" extra=\"{}\" gcode=\"M601\"/>\n",
-        pause.first_print_mm, escaped(pause.message));
+    xml += fmt::format("<code print_z=\"{:.6g}\" type=\"1\" extruder=\"1\" color=\"\" extra=\"{}\" gcode=\"M601\"/>\n",
+                       pause.first_print_mm, escaped(pause.message));
   return xml + "<mode value=\"SingleExtruder\"/>\n</custom_gcodes_per_print_z>\n";
 }
 

@@ -29,11 +29,11 @@ struct PocketRules {
 struct Pocket {
   Insert insert;
   int stacked = 1;
-  std::vector<Vec2> profile;    ///< radius (x) and height (y), upward, from the axis to the axis
-  double open_mm = 0;           ///< where the ceiling begins: the print pauses when all below is printed
-  double height_mm = 0;         ///< where it ends
-  double radius_mm = 0;         ///< the largest
-  double inserts_at_mm = 0;     ///< height of the inserts' centre of mass
+  std::vector<Vec2> profile;  ///< radius (x) and height (y), upward, from the axis to the axis
+  double open_mm = 0;         ///< where the ceiling begins: the print pauses when all below is printed
+  double height_mm = 0;       ///< where it ends
+  double radius_mm = 0;       ///< the largest
+  double inserts_at_mm = 0;   ///< height of the inserts' centre of mass
 
   double mass_g() const { return stacked * insert.mass_g; }
 };

@@ -174,7 +174,8 @@ double PocketFits::wall_mm(const PocketPlace& place, double at_most_mm) const {
       if (!is_inside || least < options_.wall_mm - rounding_mm) return is_inside ? least : 0;
     }
   for (const Triangle& t : mesh.triangles)
-    least = std::min(least, distance.from_triangle(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]], least));
+    least =
+        std::min(least, distance.from_triangle(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]], least));
   return least;
 }
 
@@ -185,8 +186,8 @@ bool PocketFits::fits(const PocketPlace& place) const {
 bool PocketFits::are_apart(const PocketPlace& a, const PocketPlace& b) const {
   constexpr double rounding = 1.002;  // the polygon's corners, and float32
   const Pocket &p = pockets_[a.pocket], &q = pockets_[b.pocket];
-  const double beside = std::hypot(a.floor_mm.x - b.floor_mm.x, a.floor_mm.y - b.floor_mm.y) -
-                        rounding * (p.radius_mm + q.radius_mm);
+  const double beside =
+      std::hypot(a.floor_mm.x - b.floor_mm.x, a.floor_mm.y - b.floor_mm.y) - rounding * (p.radius_mm + q.radius_mm);
   const double above = std::max(b.floor_mm.z - a.floor_mm.z - p.height_mm, a.floor_mm.z - b.floor_mm.z - q.height_mm);
   return std::hypot(std::max(0.0, beside), std::max(0.0, above)) >= options_.wall_mm * (1 + 1e-6);
 }

@@ -25,7 +25,8 @@ struct PlaceOptions {
   double wall_mm = 1.6;         ///< least material between a pocket and anything else, > 0
   double layer_mm = 0.2;        ///< > 0
   double first_layer_mm = 0.2;  ///< > 0
-  double least_step_mm = 0.75;  ///< of the lattice, > 0; more where it would have over 500,000 points in the solid's box
+  double least_step_mm =
+      0.75;  ///< of the lattice, > 0; more where it would have over 500,000 points in the solid's box
 };
 
 /// The places of a lattice where pockets may fit, and whether they do.
