@@ -154,6 +154,7 @@ Result<Candidates> PlaceChooser::best_of_beam(const Candidates& among, int most,
     }
     if (next.empty()) break;
     std::vector<std::pair<double, Candidates>> ranked;
+    ranked.reserve(next.size());
     for (auto& [chosen, value] : next) ranked.emplace_back(-value, chosen);
     std::ranges::sort(ranked);
     ranked.resize(std::min(ranked.size(), width));
