@@ -65,7 +65,8 @@ Result<void> write_plugs(const StandRun& made, const Arguments& a, const Job& jo
   if (!parts) return tl::unexpected(parts.error());
   TriangleMesh all;
   for (const TriangleMesh& plug : *parts) all = joined(std::move(all), plug);
-  return write_mesh(a.job.plugs, all, WriteOptions{a.job.plugs.stem().string(), remember_temp_file, {}},
+  return write_mesh(a.job.plugs, all,
+                    WriteOptions{.name = a.job.plugs.stem().string(), .on_temp_file = remember_temp_file},
                     job.part(0.8, 1));
 }
 
@@ -94,8 +95,10 @@ Result<Report> measure_and_write(const StandRun& made, const Input& input, const
                                  const StandOptions& options, const Job& job) {
   const std::filesystem::path& output = a.job.output;
   const MeshFormat format = output == "-" ? MeshFormat::stl : *format_of(output);
-  auto bytes = encode_mesh(made.shell->mesh, format, WriteOptions{output.stem().string(), {}, parts_of(made.report)},
-                           job.part(0, 0.4));
+  auto bytes =
+      encode_mesh(made.shell->mesh, format,
+                  WriteOptions{.name = output.stem().string(), .on_temp_file = {}, .parts = parts_of(made.report)},
+                  job.part(0, 0.4));
   if (!bytes) return tl::unexpected(bytes.error());
   const auto back =
       read_mesh(*bytes, output == "-" ? "standard output.stl" : output.filename().string(), {}, job.part(0.4, 0.6));
