@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "aplomb/inserted.h"
+
 namespace aplomb {
 namespace {
 
@@ -16,7 +18,8 @@ std::optional<double> t_with_half_wall(const Input& input, const JointProblem& j
   VolumeOptions coarse{options.wall_mm / 2, options.wall_mm / 4, 0, options.memory_bytes};
   const auto volume = voxelize(input.solid, coarse, job.part(0, 0.7));
   if (!volume) return std::nullopt;
-  const auto bound_t = carving_bound(*volume, input.moments, joint.problem, 1e-4, job.part(0.7, 1));
+  const Moments loaded = input.moments + inserts_as_solid(input.inserts, options);
+  const auto bound_t = carving_bound(*volume, loaded, joint.problem, 1e-4, job.part(0.7, 1));
   return bound_t ? std::optional(*bound_t) : std::nullopt;
 }
 

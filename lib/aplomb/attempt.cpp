@@ -8,6 +8,7 @@
 #include "aplomb/ceilings.h"
 #include "aplomb/drained.h"
 #include "aplomb/fdm/predict_print.h"
+#include "aplomb/inserted.h"
 #include "aplomb/printability/printed_solid.h"
 
 namespace aplomb {
@@ -58,6 +59,11 @@ Result<Moments> printed_moments(const TriangleMesh& shell, const StandOptions& o
   return print->all();
 }
 
+/// Of one material alone density errors move nothing.
+RowKind loaded_kind(const Input& input, const StandOptions& options) {
+  return input.inserts.empty() ? RowKind::nominal : kind_of(options);
+}
+
 /// How far short of its angle a reshaped solid ends.
 double shortfall_t(const ReshapedAttempt& reshaped, const JointProblem& joint) {
   Moments body = reshaped.input.moments;
@@ -90,11 +96,14 @@ Result<Attempt> carve_shell(const SolidVolume& volume, const Input& input, const
                             const Job& job) {
   const double required_rad = std::atan(joint.required_t);
   const int most_rounds = options.profile ? most_sliced_carvings : most_carvings;
+  const Moments inserts = inserts_as_solid(input.inserts, options);
   double aimed_rad = required_rad + allowance.beyond_rad;
   for (int round = 1;; ++round) {
     const CarveOptions carving_options{options.aim, std::tan(aimed_rad), options.least_volume_mm3};
-    auto carving = carve(volume, input.moments - allowance.taken, joint.problem, carving_options, job.part(0, 0.3));
+    auto carving =
+        carve(volume, input.moments - allowance.taken + inserts, joint.problem, carving_options, job.part(0, 0.3));
     if (!carving) return tl::unexpected(carving.error());
+    carving->body = carving->body - inserts;
     clock.lap("carve");
     carving->reaches = carving->t >= joint.required_t;
     if (!carving->reaches && !allowance.always) return Attempt{joint, std::move(*carving), std::nullopt, volume};
@@ -103,7 +112,8 @@ Result<Attempt> carve_shell(const SolidVolume& volume, const Input& input, const
     clock.lap("shell");
     const auto body = printed_moments(shell->mesh, options, job.part(0.9, 1));
     if (!body) return tl::unexpected(body.error());
-    const double short_rad = required_rad - std::atan(largest_t(joint.problem, *body - allowance.taken));
+    const LoadedBody loaded{*body - allowance.taken, inserts};
+    const double short_rad = required_rad - std::atan(loaded_t(joint.problem, loaded, loaded_kind(input, options)));
     const bool has_more = aimed_rad < std::atan(carving->bound_t);  // else this was the most stable void
     if (short_rad <= 0 || !carving->reaches || !has_more || options.aim == CarveAim::stable || round == most_rounds) {
       if (options.profile) carving->reaches &= short_rad <= 0 || options.aim == CarveAim::stable;

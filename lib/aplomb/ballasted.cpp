@@ -1,5 +1,7 @@
 #include "aplomb/ballasted.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -12,10 +14,9 @@ constexpr int most_rounds = 4;
 constexpr double beyond_t = 1e-4;      // asked for in addition to what the measured print came short of
 constexpr double beside_model_mm = 1;  // so that no face of the volume lies on the model's surface
 
-/// The profile's, or the options' where it says nothing of it.
-double filament_density(const StandOptions& options) {
-  const double told = options.profile->density_g_per_cm3;
-  return told > 0 ? told : options.density_g_per_cm3;
+double mass_g(const PoseMeasure& measure) {
+  if (const auto* standing = std::get_if<Standing>(&measure)) return standing->stability.mass_g;
+  return std::get<Hanging>(measure).mass_g;
 }
 
 /// By how much the print falls short of the pose that it meets least; robust angles also reckon with uneven infill.
@@ -35,7 +36,7 @@ bool tries_ballast(const StandOptions& o) {
   if (o.ballast != Ballasting::automatic) return o.ballast == Ballasting::only;
   return o.profile && profile_with_ballast(o).infill_ratio >= least_ballast_ratio &&
          profile_with_ballast(o).infill_ratio < o.ballast_high_ratio && o.judge.rules.process() == Process::fdm &&
-         o.aim != CarveAim::light && o.deform != Deform::only && o.reshape.regions.handles.empty();
+         o.aim != CarveAim::light && o.deform != Deform::only && o.reshape.regions.handles.empty() && o.inserts.empty();
 }
 
 PrintProfile profile_with_ballast(const StandOptions& options) {
@@ -73,7 +74,7 @@ TriangleMesh ballast_volume(const Ballast& ballast, const Box3& model) {
 }
 
 std::vector<Region> printed_body(const PredictedPrint& print, const StandOptions& options) {
-  return print.body(filament_density(options));
+  return print.body(printed_density(options));
 }
 
 BallastFigures ballast_figures(const Ballast& ballast, const JointProblem& joint, const StandOptions& options) {
@@ -83,7 +84,7 @@ BallastFigures ballast_figures(const Ballast& ballast, const JointProblem& joint
           ballast.infill.infill_ratio,
           ballast.infill.dense,
           ballast.added_mm3,
-          ballast.added_mm3 * filament_density(options) * 1e-3,
+          ballast.added_mm3 * printed_density(options) * 1e-3,
           hangs ? -bound_rad : bound_rad,
           joint.is_surplus ? BoundOf::surplus : (hangs ? BoundOf::tilt : BoundOf::tip),
           static_cast<std::size_t>(ballast.planes)};
@@ -100,6 +101,20 @@ Result<std::vector<Region>> body_of(const SolidMesh& solid, const Moments& momen
   auto body = printed_body(*print, options);
   if (body.empty()) return fail(ErrorCode::unusable_input, "with this profile nothing of the model is printed");
   return body;
+}
+
+void note_sliced(Report& report) {
+  const PoseReport& pose = report.poses.front();
+  const double before_g = mass_g(pose.before), after_g = mass_g(*pose.after);
+  if (after_g > before_g)
+    report.hints.push_back(
+        fmt::format("sliced with this profile it becomes heavier: {:.4g} g instead of {:.4g}, for the slicer puts "
+                    "skins round voids; at 100 % infill they make it lighter",
+                    after_g, before_g));
+  if (report.outcome == Outcome::best_effort)
+    report.hints.emplace_back(
+        "the angle is that of the sliced print, whose infill weighs little beside its walls: sliced at 100 % infill a "
+        "void does more, and so may denser infill on one side (--ballast, into a 3MF)");
 }
 
 }  // namespace aplomb

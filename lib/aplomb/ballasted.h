@@ -31,6 +31,9 @@ std::vector<Region> printed_body(const PredictedPrint& print, const StandOptions
 /// What the ballast did, for the report.
 BallastFigures ballast_figures(const Ballast& ballast, const JointProblem& joint, const StandOptions& options);
 
+/// Adds hints: what sparse infill makes of a void. \pre report.carving and the `after` of its poses.
+void note_sliced(Report& report);
+
 /// A solid as it is sliced, with ballast where there is any, or as one piece where there is no profile.
 /// \return as predict_print(); unusable_input where nothing is printed.
 Result<std::vector<Region>> body_of(const SolidMesh& solid, const Moments& moments, const StandOptions& options,

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "aplomb/balance/stability.h"
 #include "aplomb/core/stage_clock.h"
 #include "aplomb/io/read_mesh.h"
 #include "aplomb/mesh/placement.h"
@@ -29,6 +30,7 @@ struct Input {
   RepairReport repair;
   std::vector<std::string> notes;  ///< what was odd about the file, and what looks like a mistake
   StageSeconds stage_seconds;      ///< read and repair
+  std::vector<Region> inserts{};   ///< that lie in voids of the solid, and weigh besides it
 };
 
 /// Told what each stage made, for those who want to look: a name such as "2-solid" and the mesh.

@@ -5,6 +5,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "aplomb/advice.h"
@@ -12,6 +13,7 @@
 #include "aplomb/balance/attachments.h"
 #include "aplomb/ballasted.h"
 #include "aplomb/holes/drill.h"
+#include "aplomb/inserted.h"
 
 namespace aplomb {
 namespace {
@@ -21,6 +23,11 @@ std::vector<Region> uniform_body(const Moments& body, const StandOptions& option
 }
 
 Shell as_it_came(const Input& input) { return {input.solid.mesh(), input.solid.mesh().triangles.size(), 0, 0, 0}; }
+
+std::vector<Region> with_regions(std::vector<Region> body, const std::vector<Region>& more) {
+  body.insert(body.end(), more.begin(), more.end());
+  return body;
+}
 
 Result<std::vector<PoseMeasure>> measure_poses(const TriangleMesh& outer, const std::vector<Region>& body,
                                                const StandOptions& options) {
@@ -58,26 +65,6 @@ Result<Report> begin_report(const Input& input, const StandOptions& options, con
   report.mesh =
       MeshFigures{input.repair.outer_unchanged, true, 0, input.solid.voids(), input.solid.mesh().triangles.size()};
   return report;
-}
-
-double mass_g(const PoseMeasure& measure) {
-  if (const auto* standing = std::get_if<Standing>(&measure)) return standing->stability.mass_g;
-  return std::get<Hanging>(measure).mass_g;
-}
-
-/// What sparse infill makes of a void.
-void note_sliced(Report& report) {
-  const PoseReport& pose = report.poses.front();
-  const double before_g = mass_g(pose.before), after_g = mass_g(*pose.after);
-  if (after_g > before_g)
-    report.hints.push_back(
-        fmt::format("sliced with this profile it becomes heavier: {:.4g} g instead of {:.4g}, for the slicer puts "
-                    "skins round voids; at 100 % infill they make it lighter",
-                    after_g, before_g));
-  if (report.outcome == Outcome::best_effort)
-    report.hints.emplace_back(
-        "the angle is that of the sliced print, whose infill weighs little beside its walls: sliced at 100 % infill a "
-        "void does more, and so may denser infill on one side (--ballast, into a 3MF)");
 }
 
 CarvingFigures carving_figures(const Carving& carving, const Input& input, const JointProblem& joint,
@@ -144,10 +131,12 @@ constexpr double same_place_mm = 2;
 /// Judges what was written; where it fails, the model as it came too, to tell what carving did from what was there.
 Result<Judgement> judge_output(const TriangleMesh& written, const Input& input, const StandRun& run,
                                const StandOptions& options, const Job& job) {
-  const JudgeOptions judging = judge_options(options);
+  JudgeOptions judging = judge_options(options);
+  judging.inserts = run.inserts;
   auto judgement = judge(written, judging, &run.shell->mesh, job.part(0, 0.5));
   if (!judgement || judgement->new_failures().empty()) return judgement;
-  const bool is_changed = run.carving || run.report.deformation;
+  const bool is_changed = run.carving || run.report.deformation || run.report.inserts;
+  judging.inserts.clear();
   const auto before = is_changed ? judge(input.solid.mesh(), judging, nullptr, job.part(0.5, 1)) : judgement;
   if (!before) return tl::unexpected(before.error());
   const double moved_mm = run.report.deformation ? run.report.deformation->max_mm : 0;
@@ -167,6 +156,18 @@ void take_holes(StandRun& run, const Input& shaped, const Attempt& made) {
   run.report.mesh->outer_unchanged = false;
 }
 
+/// Puts inserts in, and says so.
+Result<Inserted> put_in(StandRun& run, const Input& input, const StandOptions& options, StageClock& clock,
+                        const Job& job, const StageViewer& view) {
+  auto inserted = with_inserts(input, options, clock, job);
+  if (!inserted) return inserted;
+  if (view) view("3-pockets", inserted->input.solid.mesh());
+  run.inserts = inserted->input.inserts;
+  run.report.inserts = inserted->figures;
+  if (!run.inserts.empty()) run.report.wall = WallFigures{options.wall_mm, inserted->wall_mm};
+  return inserted;
+}
+
 /// Says of a run what was made: of the solid alone where nothing was carved.
 Result<StandRun> finish(StandRun run, const Input& shaped, std::optional<Attempt> made, const StandOptions& options,
                         StageClock& clock, const Job& job, const StageViewer& view) {
@@ -183,12 +184,15 @@ Result<StandRun> finish(StandRun run, const Input& shaped, std::optional<Attempt
   }
   if (view && run.shell) view("5-shell", run.shell->mesh);
   const Moments& kept = run.carving ? run.carving->body : shaped.moments;
-  auto after = measure_poses(shaped.solid.mesh(), uniform_body(kept, options), options);
+  auto after = measure_poses(shaped.solid.mesh(), with_regions(uniform_body(kept, options), shaped.inserts), options);
   if (!after) return tl::unexpected(after.error());
   set_after(report, std::move(*after), kind_of(options));
   const bool reaches = run.carving ? run.carving->reaches : all_hold(report);
   report.outcome = reaches ? Outcome::stands : Outcome::best_effort;
-  if (run.shell && run.carving) report.wall = WallFigures{options.wall_mm, run.shell->wall_mm};
+  if (run.shell && run.carving) {
+    const double pockets_mm = report.wall ? report.wall->measured_mm : std::numeric_limits<double>::infinity();
+    report.wall = WallFigures{options.wall_mm, std::min(run.shell->wall_mm, pockets_mm)};
+  }
   if (!reaches && made) {
     clock.lap("measure");
     add_advice(report, shaped, made->joint, options, job);
@@ -210,6 +214,7 @@ Result<StandRun> stand(const Input& input, const StandOptions& options, const Jo
   const bool is_to_move = !options.reshape.regions.handles.empty();
   if (all_hold(report) && !is_to_move && options.aim == CarveAim::least) {
     report.outcome = Outcome::already_stands;
+    if (!options.inserts.empty()) report.hints.emplace_back("it stands by itself: no insert was put in");
     run.shell = as_it_came(input);
     return run;
   }
@@ -228,8 +233,16 @@ Result<StandRun> stand(const Input& input, const StandOptions& options, const Jo
   }
   Input shaped = input;
   std::optional<Attempt> made;
-  if (options.deform != Deform::only && !is_to_move) {
-    auto carved = attempt_carving(input, options, clock, job.part(0.2, options.deform == Deform::never ? 0.8 : 0.4));
+  bool is_to_carve = options.deform != Deform::only && !is_to_move;
+  if (!options.inserts.empty()) {
+    auto inserted = put_in(run, input, options, clock, job.part(0.05, 0.2), view);
+    if (!inserted) return tl::unexpected(inserted.error());
+    is_to_carve = !inserted->reaches || options.aim != CarveAim::least;
+    shaped = std::move(inserted->input);
+  }
+  if (is_to_carve) {
+    const double from = 0.2;
+    auto carved = attempt_carving(shaped, options, clock, job.part(from, options.deform == Deform::never ? 0.8 : 0.4));
     if (!carved) return tl::unexpected(carved.error());
     made = std::move(*carved);
   }
@@ -284,13 +297,13 @@ Result<Report> measure_output(const TriangleMesh& written, const Input& input, c
   report.mesh = figures;
   const auto body = body_of(*solid->solid, solid->solid->moments(), options, run.ballast, job.part(0.4, 0.5));
   if (!body) return tl::unexpected(body.error());
-  auto after = measure_poses(written, *body, options);
+  auto after = measure_poses(written, with_regions(*body, run.inserts), options);
   if (!after) return tl::unexpected(after.error());
   set_after(report, std::move(*after), kind_of(options));
   auto judgement = judge_output(written, input, run, options, job.part(0.5, 1));
   if (!judgement) return tl::unexpected(judgement.error());
   report.judgement = std::move(*judgement);
-  if (report.carving || report.deformation || report.ballast)
+  if (report.carving || report.deformation || report.ballast || report.inserts)
     report.outcome = all_hold(report) ? Outcome::stands : Outcome::best_effort;
   if (options.profile && report.carving) note_sliced(report);
   return report;

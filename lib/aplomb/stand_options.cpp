@@ -16,6 +16,7 @@ std::string find_ballast_problem(const StandOptions& o) {
   if (o.ballast != Ballasting::only) return {};
   if (o.deform == Deform::only || !o.reshape.regions.handles.empty())
     return "ballast leaves the outside as it is, but deform asks for another";
+  if (!o.inserts.empty()) return "ballast is infill alone; leave it or the inserts out";
   if (!o.profile) return {};
   const double low = o.ballast_low_ratio.value_or(o.profile->infill_ratio);
   if (!(low >= least_ballast_ratio && low < high))
@@ -24,6 +25,17 @@ std::string find_ballast_problem(const StandOptions& o) {
         "% "
         "of its own",
         100 * low, 100 * least_ballast_ratio, 100 * high);
+  return {};
+}
+
+}  // namespace
+
+namespace {
+
+std::string find_insert_problem(const StandOptions& o) {
+  if (o.inserts.empty()) return {};
+  for (const InsertStock& stock : o.inserts)
+    if (std::string problem = find_problem(stock); !problem.empty()) return problem;
   return {};
 }
 
@@ -43,11 +55,17 @@ std::string find_problem(const StandOptions& o) {
     return "deform is never, but a handle moves the outside; it must be auto or only";
   if (std::string problem = find_ballast_problem(o); !problem.empty()) return problem;
   if (std::string problem = find_problem(o.judge); !problem.empty()) return problem;
+  if (std::string problem = find_insert_problem(o); !problem.empty()) return problem;
   return find_problem(CarveOptions{o.aim, 0, o.least_volume_mm3});
 }
 
 double voxel_mm(const StandOptions& options, const Box3& box) {
   return options.voxel_mm.value_or(std::min(options.wall_mm / 4, box.diagonal() / 256));
+}
+
+double printed_density(const StandOptions& options) {
+  const bool is_told = options.profile && options.profile->density_g_per_cm3 > 0;
+  return is_told ? options.profile->density_g_per_cm3 : options.density_g_per_cm3;
 }
 
 bool shapes_ceilings(const StandOptions& options) {

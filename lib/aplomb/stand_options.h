@@ -9,6 +9,7 @@
 #include "aplomb/carve/carve.h"
 #include "aplomb/deform/reshape.h"
 #include "aplomb/fdm/print_profile.h"
+#include "aplomb/inserts/insert.h"
 #include "aplomb/printability/judge.h"
 
 namespace aplomb {
@@ -62,6 +63,8 @@ struct StandOptions {
   Ballasting ballast = Ballasting::automatic;    ///< only: needs a profile
   std::optional<double> ballast_low_ratio = {};  ///< of the infill, at least least_ballast_ratio; none: the profile's
   double ballast_high_ratio = 1;                 ///< above the low one, at most 1
+  /// What may be laid into pockets while it prints; carving follows where that is not enough.
+  std::vector<InsertStock> inserts = {};
   JudgeOptions judge = {};  ///< of what is written; its pose is the first that stands as it is printed
 };
 
@@ -70,6 +73,9 @@ std::string find_problem(const StandOptions& options);
 
 /// The voxel that `options` ask for or that suits a solid of this size.
 double voxel_mm(const StandOptions& options, const Box3& box);
+
+/// In g/cm3: what the profile says, else the option.
+double printed_density(const StandOptions& options);
 
 /// Whether `options` ask for voids whose ceilings print.
 bool shapes_ceilings(const StandOptions& options);

@@ -6,6 +6,7 @@ import os
 import tempfile
 import unittest
 
+import inserts
 import judge
 import shells
 import void_core
@@ -226,6 +227,42 @@ class Measures(unittest.TestCase):
             again = shells.read(path)
         self.assertEqual(len(again.vertices), len(HOLLOW.vertices))
         self.assertAlmostEqual(shells.body(again).volume, 56000)
+
+
+class Inserts(unittest.TestCase):
+    POCKET = {"name": "coin", "at_mm": [5, 5, 4], "diameter_mm": 20.5, "floor_mm": 3.0, "pause_mm": 5.0}
+    REPORT = {"inserts": {"pockets": [POCKET]}, "before": {"box_mm": [[-10, -10, 0], [20, 20, 20]]}}
+
+    def wrong_in(self, pause_below, bead_at=None):
+        """Square rings round the pocket, a pause before the layers above pause_below, and a bead through its middle."""
+        lines, is_paused = ["M83\n"], False
+        for layer in range(1, 61):
+            z = 0.2 * layer
+            if pause_below is not None and not is_paused and z > pause_below + 1e-6:
+                lines.append("M601\n")
+                is_paused = True
+            lines.append(f"G1 X188 Y188 Z{z:.3f}\n")
+            lines += [f"G1 X{x} Y{y} E0.5\n" for x, y in ((212, 188), (212, 212), (188, 212), (188, 188))] * 4
+            if bead_at is not None and abs(z - bead_at) < 1e-6:
+                lines.append("G1 X212 Y212 E0.5\n")
+        with tempfile.NamedTemporaryFile("w", suffix=".gcode") as program:
+            program.writelines(lines)
+            program.flush()
+            return inserts.judge(program.name, self.REPORT, 0.2)
+
+    def test_passes_a_pause_over_an_empty_pocket(self):
+        self.assertEqual(self.wrong_in(5.0), [])
+        self.assertEqual(self.wrong_in(5.0, bead_at=5.2), [])
+        self.assertEqual(self.wrong_in(5.0, bead_at=3.0), [])
+
+    def test_fails_a_pause_that_is_missing_early_or_late(self):
+        self.assertEqual(self.wrong_in(None), ["pauses", "beads on the wrong side of a pause"])
+        for pause_below in (4.8, 5.2):
+            self.assertEqual(self.wrong_in(pause_below), ["beads on the wrong side of a pause"])
+
+    def test_fails_a_bead_where_the_insert_will_be(self):
+        for z in (3.2, 5.0):
+            self.assertEqual(self.wrong_in(5.0, bead_at=z), ["beads within an insert"])
 
 
 if __name__ == "__main__":

@@ -77,6 +77,10 @@ void add_carving_flags(CLI::App* app, Arguments& a) {
   add_quantity(app, "--voxel", options.voxel_mm, lengths, "grid spacing (default: 4 in a wall, 256 on the diagonal)");
   add_quantity(app, "--least-void", options.least_void_mm, lengths, "no void narrower than this (default 1mm)");
   app->add_option("--least-volume", options.least_volume_mm3, "no void smaller than this, in mm3 (default 10)");
+  app->add_option(
+      "--insert", a.job.inserts,
+      "coins or balls that may be laid into pockets while it prints, at most so many: penny:4 (nickel, dime, "
+      "quarter), ball:10mm:6 (steel), coin:19.05x1.52mm:2.5g:4; pauses go into a 3MF for PrusaSlicer");
   add_choice(
       app, "--holes", {"auto", "none"},
       [&options](const std::string& name) { options.holes = name == "none" ? Holes::none : Holes::automatic; },

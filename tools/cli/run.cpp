@@ -11,6 +11,8 @@
 #include "aplomb/core/stage_clock.h"
 #include "aplomb/core/threads.h"
 #include "aplomb/ending.h"
+#include "aplomb/inserted.h"
+#include "aplomb/inserts/pause.h"
 #include "aplomb/io/write_mesh.h"
 #include "aplomb/printability/judge.h"
 #include "aplomb/report/json.h"
@@ -64,7 +66,29 @@ Result<void> write_plugs(const StandRun& made, const Arguments& a, const Job& jo
   if (!parts) return tl::unexpected(parts.error());
   TriangleMesh all;
   for (const TriangleMesh& plug : *parts) all = joined(std::move(all), plug);
-  return write_mesh(a.job.plugs, all, WriteOptions{a.job.plugs.stem().string(), remember_temp_file}, job.part(0.8, 1));
+  return write_mesh(a.job.plugs, all,
+                    WriteOptions{.name = a.job.plugs.stem().string(), .on_temp_file = remember_temp_file},
+                    job.part(0.8, 1));
+}
+
+/// What goes into a 3MF beside the model.
+std::vector<PackagePart> parts_of(const Report& report) {
+  if (!report.inserts || report.inserts->pockets.empty()) return {};
+  std::vector<Pause> pauses;
+  for (const PocketFigures& pocket : report.inserts->pockets)
+    pauses.push_back({pocket.first_print_mm, fmt::format("put {} x {} in", pocket.count, pocket.name)});
+  return {{prusaslicer_pauses_path, prusaslicer_pauses(std::move(pauses))}};
+}
+
+/// Where the pauses for inserts are, and for which layers.
+void add_pause_hint(Report& report, MeshFormat format) {
+  if (!report.inserts || report.inserts->pockets.empty()) return;
+  report.hints.push_back(
+      fmt::format("{}; the pockets are for layers of {:g} mm: other layers need --layer or --profile",
+                  format == MeshFormat::three_mf
+                      ? "PrusaSlicer finds the pauses in the 3MF; in another slicer set them at these heights"
+                      : "set the pauses at these heights in the slicer; a 3MF would hold them for PrusaSlicer",
+                  report.inserts->layer_mm));
 }
 
 InfillModifier modifier_of(const StandRun& made, const Input& input, const Arguments& a, const StandOptions& options) {
@@ -79,7 +103,7 @@ Result<Report> measure_and_write(const StandRun& made, const Input& input, const
                                  const StandOptions& options, const Job& job) {
   const std::filesystem::path& output = a.job.output;
   const MeshFormat format = output == "-" ? MeshFormat::stl : *format_of(output);
-  WriteOptions write{output.stem().string(), {}};
+  WriteOptions write{.name = output.stem().string(), .on_temp_file = {}, .parts = parts_of(made.report)};
   if (made.ballast && format == MeshFormat::three_mf) write.modifier = modifier_of(made, input, a, options);
   auto bytes = encode_mesh(made.shell->mesh, format, write, job.part(0, 0.4));
   if (!bytes) return tl::unexpected(bytes.error());
@@ -101,6 +125,7 @@ Result<Report> measure_and_write(const StandRun& made, const Input& input, const
       return tl::unexpected(written.error());
   }
   if (const auto plugged = write_plugs(made, a, job); !plugged) return tl::unexpected(plugged.error());
+  add_pause_hint(*report, format);
   if (!a.job.plugs.empty() && made.holes.empty()) report->hints.emplace_back("no escape holes were cut: no plugs");
   return report;
 }
@@ -108,13 +133,14 @@ Result<Report> measure_and_write(const StandRun& made, const Input& input, const
 constexpr int picture_size = 600;  // pixels across one of its parts
 
 /// Draws what came, and what became of it where there is something.
-Result<void> draw(const Arguments& a, const Input& input, const StandRun* made, const std::vector<Pose>& poses,
+Result<void> draw(const Arguments& a, const Input& input, const StandRun* made, const StandOptions& options,
                   const Job& job) {
   if (a.job.picture.empty()) return {};
   const TriangleMesh& before = input.solid.mesh();
   const auto image = made && made->shell
-                         ? picture::before_and_after(before, made->shell->mesh, poses, picture_size, {}, job)
-                         : picture::as_it_is(before, poses, picture_size, {}, job);
+                         ? picture::before_and_after(before, made->shell->mesh, options.poses, picture_size, {}, job,
+                                                     inserts_as_solid(made->inserts, options))
+                         : picture::as_it_is(before, options.poses, picture_size, {}, job);
   if (!image) return tl::unexpected(image.error());
   const auto bytes = picture::encode_png(*image);
   if (!bytes) return tl::unexpected(bytes.error());
@@ -135,6 +161,7 @@ Result<void> write_page(const Arguments& a, const Report& report, const Input& i
   page::PageContent content{
       .title = a.job.model.filename().string(), .before = &input.solid.mesh(), .poses = options.poses};
   if (made && made->shell) content.after = &made->shell->mesh;
+  if (made) content.inserts = inserts_as_solid(made->inserts, options);
   content.report = report;
   content.judgement = report.judgement;
   content.required_tip_rad = report.required_tip_rad;
@@ -156,7 +183,7 @@ int run_stand(const Arguments& a, const Input& input, const StandOptions& option
     report = std::move(*measured);
     report.stage_seconds = std::move(seconds);
   }
-  if (const auto drawn = draw(a, input, writes ? &*made : nullptr, options.poses, job.part(0.9, 0.95)); !drawn)
+  if (const auto drawn = draw(a, input, writes ? &*made : nullptr, options, job.part(0.9, 0.95)); !drawn)
     return report_error(drawn.error());
   if (const auto paged = write_page(a, report, input, writes ? &*made : nullptr, options, job.part(0.95, 1)); !paged)
     return report_error(paged.error());
@@ -167,7 +194,7 @@ int run_stand(const Arguments& a, const Input& input, const StandOptions& option
 int run_check(const Arguments& a, const Input& input, const StandOptions& options, const Job& job) {
   auto report = check(input, options, job.part(0, 0.5));
   if (!report) return report_error(report.error());
-  if (const auto drawn = draw(a, input, nullptr, options.poses, job.part(0.5, 0.8)); !drawn)
+  if (const auto drawn = draw(a, input, nullptr, options, job.part(0.5, 0.8)); !drawn)
     return report_error(drawn.error());
   if (const auto paged = write_page(a, *report, input, nullptr, options, job.part(0.8, 1)); !paged)
     return report_error(paged.error());

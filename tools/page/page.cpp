@@ -109,11 +109,11 @@ Result<std::string> stresses(const PageContent& content, const Job& job) {
 }
 
 Result<std::string> pictures(const PageContent& content, const std::vector<picture::Mark>& marks, const Job& job) {
-  const auto image =
-      content.before && content.after
-          ? picture::before_and_after(*content.before, *content.after, content.poses, picture_size, marks, job)
-          : picture::as_it_is(content.after ? *content.after : *content.before, content.poses, picture_size, marks,
-                              job);
+  const auto image = content.before && content.after
+                         ? picture::before_and_after(*content.before, *content.after, content.poses, picture_size,
+                                                     marks, job, content.inserts)
+                         : picture::as_it_is(content.after ? *content.after : *content.before, content.poses,
+                                             picture_size, marks, job);
   if (!image) return tl::unexpected(image.error());
   return figure_of(*image, "The model, cut open and whole, with its centre of mass and support polygon",
                    marks.empty() ? "" : "<figcaption>Rings: places of what is listed below, by number.</figcaption>");

@@ -21,6 +21,7 @@ struct PageContent {
   std::optional<Judgement> judgement{};  ///< of validate and stand
   std::optional<Standing> standing{};    ///< for the diagrams; none: it does not stand
   double required_tip_rad = 0;
+  Moments inserts{};  ///< in voids of `after`, as so much of its material
 };
 
 /// \pre before or after is given.

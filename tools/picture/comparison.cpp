@@ -17,12 +17,12 @@ struct Posed {
   Affine3 down{};  ///< from the mesh as it came
 };
 
-Result<Posed> posed(const TriangleMesh& mesh, const Pose& pose) {
+Result<Posed> posed(const TriangleMesh& mesh, const Moments& inserts, const Pose& pose) {
   if (const HangingPose* hanging = pose.hanging())
-    return hung(mesh, *hanging).map([](Hung hung) {
+    return hung(mesh, *hanging, inserts).map([](Hung hung) {
       return Posed{std::move(hung.subject), std::move(hung.verdict), {1, 0, 0}, false, hung.down};
     });
-  return stood_up(mesh, *pose.standing()).map([](const Figure& figure) {
+  return stood_up(mesh, *pose.standing(), inserts).map([](const Figure& figure) {
     return Posed{drawn(figure), verdict(figure), figure.standing.stability.heading, true, figure.down};
   });
 }
@@ -71,14 +71,20 @@ class Row {
   View view_;
 };
 
-Result<Image> pictures(const std::vector<const TriangleMesh*>& meshes, const std::vector<Pose>& poses, int size,
+/// A mesh, and what weighs besides it.
+struct Model {
+  const TriangleMesh* mesh = nullptr;
+  Moments inserts{};
+};
+
+Result<Image> pictures(const std::vector<Model>& models, const std::vector<Pose>& poses, int size,
                        const std::vector<Mark>& marks, const Job& job) {
   assert(!poses.empty() && size > 0);
   std::vector<Image> rows;
   for (std::size_t n = 0; n < poses.size(); ++n) {
     std::vector<Posed> figures;
-    for (const TriangleMesh* mesh : meshes) {
-      auto figure = posed(*mesh, poses[n]);
+    for (const auto& [mesh, inserts] : models) {
+      auto figure = posed(*mesh, inserts, poses[n]);
       if (!figure) return tl::unexpected(figure.error());
       figures.push_back(std::move(*figure));
     }
@@ -96,13 +102,13 @@ Result<Image> pictures(const std::vector<const TriangleMesh*>& meshes, const std
 }  // namespace
 
 Result<Image> before_and_after(const TriangleMesh& before, const TriangleMesh& after, const std::vector<Pose>& poses,
-                               int size, const std::vector<Mark>& marks, const Job& job) {
-  return pictures({&before, &after}, poses, size, marks, job);
+                               int size, const std::vector<Mark>& marks, const Job& job, const Moments& inserts) {
+  return pictures({{&before, {}}, {&after, inserts}}, poses, size, marks, job);
 }
 
 Result<Image> as_it_is(const TriangleMesh& mesh, const std::vector<Pose>& poses, int size,
                        const std::vector<Mark>& marks, const Job& job) {
-  return pictures({&mesh}, poses, size, marks, job);
+  return pictures({{&mesh, {}}}, poses, size, marks, job);
 }
 
 }  // namespace aplomb::picture

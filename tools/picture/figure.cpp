@@ -24,8 +24,10 @@ Affine3 set_down(TriangleMesh& mesh, const Mat3& turn) {
   return {turn, {0, 0, -lowest}};
 }
 
-Result<Region> body_of(const TriangleMesh& mesh) {
-  const Region body{moments(mesh), 1e-3, 0};
+/// `inserts` are where they were before the mesh was set down.
+Result<Region> body_of(const TriangleMesh& mesh, const Moments& inserts, const Affine3& down) {
+  const Moments moved{inserts.volume_mm3, down.linear * inserts.first_mm4 + inserts.volume_mm3 * down.translation};
+  const Region body{moments(mesh) + moved, 1e-3, 0};
   if (!(body.moments.volume_mm3 > 0))
     return fail(ErrorCode::unusable_input, "the mesh encloses no volume: repair it first");
   return body;
@@ -54,12 +56,12 @@ Mat3 turn_to_rest(const HangingPose& pose, Vec3 com_mm) {
 
 }  // namespace
 
-Result<Figure> stood_up(TriangleMesh mesh, StandingPose pose) {
+Result<Figure> stood_up(TriangleMesh mesh, StandingPose pose, const Moments& inserts) {
   const PlateFrame frame = plate_frame(pose.up, 0);
   const Affine3 down = set_down(mesh, {{{frame.x_axis, frame.y_axis, frame.up}}});
   for (Contact& contact : pose.contacts) contact.center_mm = down * contact.center_mm;
   pose.up = {0, 0, 1};
-  return body_of(mesh)
+  return body_of(mesh, inserts, down)
       .and_then([&](const Region& body) {
         return measure_standing(mesh, {&body, 1}, pose);
       })
@@ -68,8 +70,8 @@ Result<Figure> stood_up(TriangleMesh mesh, StandingPose pose) {
       });
 }
 
-Result<Hung> hung(TriangleMesh mesh, const HangingPose& pose) {
-  const auto body = body_of(mesh);
+Result<Hung> hung(TriangleMesh mesh, const HangingPose& pose, const Moments& inserts) {
+  const auto body = body_of(mesh, inserts, {});
   if (!body) return tl::unexpected(body.error());
   const Hanging hanging = measure_hanging({&*body, 1}, pose);
   const PlateFrame frame = plate_frame(pose.up, 0);

@@ -17,9 +17,10 @@ struct Figure {
   Affine3 down;  ///< from the mesh as it came
 };
 
-/// Turns the pose's up upward, puts the lowest point on the plate and measures at density 1.
+/// Turns the pose's up upward, puts the lowest point on the plate and measures at density 1. `inserts` are what weighs
+/// besides the mesh, as so much of its material.
 /// \return unusable_input for a mesh without positive volume; what measure_standing() returns.
-Result<Figure> stood_up(TriangleMesh mesh, StandingPose pose);
+Result<Figure> stood_up(TriangleMesh mesh, StandingPose pose, const Moments& inserts = {});
 
 /// A body as it comes to rest on its threads.
 struct Hung {
@@ -28,7 +29,7 @@ struct Hung {
   std::string verdict;  ///< "hangs askew by 2.3 degrees", with the degree sign
 };
 /// \return unusable_input for a mesh without positive volume.
-Result<Hung> hung(TriangleMesh mesh, const HangingPose& pose);
+Result<Hung> hung(TriangleMesh mesh, const HangingPose& pose, const Moments& inserts = {});
 
 /// With its support polygon and centre of mass.
 Subject drawn(const Figure& figure);

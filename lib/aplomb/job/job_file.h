@@ -40,7 +40,8 @@ struct JobFile {
   int threads = 0;       ///< 0: one per core
   RuleChanges rules;     ///< what the print is judged by
   double infill_percent = 100;
-  bool fem = false;  ///< whether strength.fem is asked for
+  std::vector<std::string> inserts;  ///< as parse_insert() reads them
+  bool fem = false;                  ///< whether strength.fem is asked for
 };
 
 /// The rules and the filling of the run. \return as rules_of(); invalid_option as find_problem() says it.

@@ -57,6 +57,8 @@ Result<JudgeOptions> judge_options(const JobFile& job) {
 StandOptions stand_options(const JobFile& job, double height_mm) {
   StandOptions options = without_contacts(job);
   if (auto judging = judge_options(job)) options.judge = std::move(*judging);
+  for (const std::string& text : job.inserts)
+    if (auto stock = parse_insert(text)) options.inserts.push_back(std::move(*stock));
   for (std::size_t i = 0; i < job.poses.size(); ++i)
     if (auto* standing = std::get_if<StandingPose>(&options.poses[i].way))
       for (const JobContact& contact : job.poses[i].contacts)
@@ -81,6 +83,8 @@ std::string find_problem(const JobFile& job) {
   if (job.options.ballast == Ballasting::only && !holds_ballast(job))
     return fmt::format("{} cannot hold ballast: write a .3mf, or the volume of denser infill on its own (modifier)",
                        job.output.string());
+  for (const std::string& text : job.inserts)
+    if (const auto stock = parse_insert(text); !stock) return stock.error().message;
   for (std::string problem : {find_problem(job.input.placement), find_problem(job.input.repair),
                               find_problem(job.input.read), find_problem(stand_options(job, 1))})
     if (!problem.empty()) return problem;

@@ -136,6 +136,12 @@ Rules with_angles_of(Rules rules, const StandingPose& pose) {
   return rules;
 }
 
+bool holds(const Box3& box, Vec3 point) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (point[axis] < box.min[axis] || point[axis] > box.max[axis]) return false;
+  return true;
+}
+
 /// Judges what is a solid.
 class SolidJudge {
  public:
@@ -169,10 +175,27 @@ class SolidJudge {
   Result<void> escape(const Job& job) {
     const auto cavities = find_cavities(printed_, rules(), job);
     if (!cavities) return tl::unexpected(cavities.error());
-    collector_.add("void.closed", void_closed(*cavities, rules()), Collector::sum_of_places);
+    collector_.add("void.closed", without_inserts(void_closed(*cavities, rules())), Collector::sum_of_places);
     collector_.add("void.holes", void_holes(*cavities, rules()));
     collector_.add("void.hole_place", void_hole_place(*cavities, rules()));
     return {};
+  }
+
+  /// What is in a pocket is to stay there: of the places round an insert, the smallest is its pocket.
+  std::vector<Place> without_inserts(std::vector<Place> places) const {
+    const auto size = [](const Place& place) {
+      const Vec3 s = place.box_mm.size();
+      return s.x * s.y * s.z;
+    };
+    for (const Region& insert : options_.inserts) {
+      auto pocket = places.end();
+      for (auto place = places.begin(); place != places.end(); ++place)
+        if (holds(place->box_mm, insert.moments.centroid_mm()) &&
+            (pocket == places.end() || size(*place) < size(*pocket)))
+          pocket = place;
+      if (pocket != places.end()) places.erase(pocket);
+    }
+    return places;
   }
 
   Result<void> layers(const Job& job) {
@@ -224,7 +247,9 @@ class SolidJudge {
       return {};
     }
     const double trapped_ratio = trapped_ratios[static_cast<std::size_t>(options_.rules.process())];
-    const auto measured = measure_stand(printed_, *options_.pose, trapped_ratio);
+    std::vector<Region> inserts = options_.inserts;
+    for (Region& insert : inserts) insert.density_g_per_cm3 /= options_.density_g_per_cm3;
+    const auto measured = measure_stand(printed_, *options_.pose, trapped_ratio, std::move(inserts));
     if (!measured) return tl::unexpected(measured.error());
     collector_.add(ids[0], measured->nominal);
     collector_.add(ids[1], measured->robust);

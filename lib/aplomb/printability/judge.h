@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "aplomb/balance/pose.h"
+#include "aplomb/balance/stability.h"
 #include "aplomb/core/error.h"
 #include "aplomb/core/job.h"
 #include "aplomb/printability/finding.h"
@@ -34,6 +35,7 @@ struct JudgeOptions {
   std::optional<StandingPose> pose = StandingPose{};  ///< as it is printed and stands, up = +z; none: it does not stand
   Filling filling{};
   double density_g_per_cm3 = 1.24;  ///< in (0, 30); PLA
+  std::vector<Region> inserts{};    ///< that lie in closed voids and weigh besides the print
   bool fem = false;                 ///< whether strength.fem is asked for, which takes seconds
 };
 

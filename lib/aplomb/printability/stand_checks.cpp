@@ -46,9 +46,11 @@ std::vector<Place> tip_place(const Standing& standing, double tip_rad) {
 
 }  // namespace
 
-Result<StandMeasures> measure_stand(const PrintedSolid& printed, const StandingPose& pose, double trapped_ratio) {
+Result<StandMeasures> measure_stand(const PrintedSolid& printed, const StandingPose& pose, double trapped_ratio,
+                                    std::vector<Region> inserts) {
   assert(trapped_ratio >= 0 && trapped_ratio <= 10);
-  std::vector<Region> body{{printed.solid.moments(), 1, print_error_ratio}};
+  std::vector<Region> body = std::move(inserts);
+  body.push_back({printed.solid.moments(), 1, print_error_ratio});
   const auto empty = measure_standing(printed.solid.mesh(), body, pose);
   if (!empty) return tl::unexpected(empty.error());
   if (trapped_ratio > 0)

@@ -17,8 +17,10 @@ struct StandMeasures {
 };
 
 /// \param trapped_ratio  density of what stays in closed voids, of the printed material's. \pre in [0, 10].
+/// \param inserts  what weighs besides the print, with densities of the printed material's.
 /// \return as support_polygon().
-Result<StandMeasures> measure_stand(const PrintedSolid& printed, const StandingPose& pose, double trapped_ratio);
+Result<StandMeasures> measure_stand(const PrintedSolid& printed, const StandingPose& pose, double trapped_ratio,
+                                    std::vector<Region> inserts = {});
 
 /// How a slicer fills a print.
 struct Filling {

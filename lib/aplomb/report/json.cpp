@@ -76,10 +76,34 @@ Json json(const PoseReport& entry, std::size_t number) {
   return object;
 }
 
-constexpr std::array<const char*, 3> bound_names{"bound_deg", "bound_tilt_deg", "bound_surplus_deg"};  // of BoundOf
+const char* bound_key(BoundOf of) {
+  constexpr std::array<const char*, 3> bounds{"bound_deg", "bound_tilt_deg", "bound_surplus_deg"};
+  return bounds[static_cast<std::size_t>(of)];
+}
+
+Json json(const InsertFigures& inserts) {
+  constexpr std::array<const char*, 3> reached{"reached_deg", "reached_tilt_deg", "reached_surplus_deg"};
+  Json pockets = Json::array();
+  for (const PocketFigures& p : inserts.pockets)
+    pockets.push_back({{"name", p.name},
+                       {"count", p.count},
+                       {"mass_g", p.mass_g},
+                       {"at_mm", json(p.at_mm)},
+                       {"diameter_mm", p.diameter_mm},
+                       {"floor_mm", p.floor_mm},
+                       {"pause_mm", p.pause_mm},
+                       {"first_print_mm", p.first_print_mm}});
+  return {{"count", inserts.count()},
+          {"allowed", inserts.allowed},
+          {reached[static_cast<std::size_t>(inserts.bound_of)], degrees(inserts.reached_rad)},
+          {bound_key(inserts.bound_of), degrees(inserts.bound_rad)},
+          {"step_mm", inserts.step_mm},
+          {"layer_mm", inserts.layer_mm},
+          {"pockets", pockets}};
+}
 
 Json json(const CarvingFigures& c) {
-  const char* bound = bound_names[static_cast<std::size_t>(c.bound_of)];
+  const char* bound = bound_key(c.bound_of);
   Json object{{"aim", c.aim},
               {"void_mm3", c.void_mm3},
               {bound, degrees(c.bound_rad)},
@@ -102,7 +126,7 @@ Json json(const BallastFigures& b) {
           {"dense", {{"constant", b.dense.constant}, {"gradient", json(b.dense.gradient)}}},
           {"added_mm3", b.added_mm3},
           {"added_g", b.added_g},
-          {bound_names[static_cast<std::size_t>(b.bound_of)], degrees(b.bound_rad)},
+          {bound_key(b.bound_of), degrees(b.bound_rad)},
           {"planes", b.planes}};
 }
 
@@ -165,6 +189,7 @@ std::string to_json(const Report& report) {
   if (report.carving) object["carving"] = json(*report.carving);
   if (report.ballast) object["ballast"] = json(*report.ballast);
   if (report.deformation) object["deformation"] = json(*report.deformation);
+  if (report.inserts) object["inserts"] = json(*report.inserts);
   if (report.wall) object["wall_mm"] = {{"required", report.wall->required_mm}, {"measured", report.wall->measured_mm}};
   for (const HoleFigures& hole : report.holes) object["holes"].push_back(json(hole));
   if (report.mesh) object["mesh"] = json(*report.mesh);

@@ -40,6 +40,12 @@ double surplus_t(const Pose& pose, const PoseMeasure& measure, RowKind kind) {
   return std::tan(kind == RowKind::robust ? s.robust_tip_rad : s.tip_rad) - std::tan(pose.standing()->required_tip_rad);
 }
 
+int InsertFigures::count() const {
+  int sum = 0;
+  for (const PocketFigures& pocket : pockets) sum += pocket.count;
+  return sum;
+}
+
 void set_before(Report& report, std::vector<PoseMeasure> measures, RowKind kind) {
   assert(measures.size() == report.poses.size());
   if (const Standing* standing = first_standing(measures)) report.before = *standing;

@@ -100,6 +100,30 @@ struct HoleFigures {
   double depth_mm = 0;  ///< from throat to mouth
 };
 
+/// A pocket, and the inserts that are to be laid into it when the print pauses.
+struct PocketFigures {
+  std::string name;           ///< of the insert
+  int count = 1;              ///< one on another
+  Vec3 at_mm;                 ///< their centre of mass
+  double pause_mm = 0;        ///< above the plate: where the ceiling begins, and the print pauses
+  double floor_mm = 0;        ///< above the plate: the pocket's lowest point
+  double diameter_mm = 0;     ///< of the pocket
+  double mass_g = 0;          ///< of the inserts
+  double first_print_mm = 0;  ///< above the plate: the top of the first layer after the pause
+};
+
+struct InsertFigures {
+  std::vector<PocketFigures> pockets;
+  int allowed = 0;         ///< inserts that there were
+  double reached_rad = 0;  ///< by inserts alone (see bound_of)
+  double bound_rad = 0;    ///< no choice of as many at the places looked at does better
+  BoundOf bound_of = BoundOf::tip;
+  double step_mm = 0;   ///< between the places looked at
+  double layer_mm = 0;  ///< that pockets were cut for
+
+  int count() const;
+};
+
 struct MeshFigures {
   bool outer_unchanged = false;
   bool closed = false;
@@ -119,6 +143,7 @@ struct Report {
   std::optional<CarvingFigures> carving;
   std::optional<DeformationFigures> deformation;
   std::optional<BallastFigures> ballast;
+  std::optional<InsertFigures> inserts;
   std::optional<WallFigures> wall;
   std::vector<HoleFigures> holes;
   std::optional<MeshFigures> mesh;

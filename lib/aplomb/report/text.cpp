@@ -7,42 +7,17 @@
 #include <sstream>
 #include <string_view>
 
+#include "aplomb/report/detail/lines.h"
 #include "aplomb/report/judgement.h"
 
 namespace aplomb {
 namespace {
 
-std::string number(double value, int decimals) {
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text.setf(std::ios::fixed);
-  text.precision(decimals);
-  const double unit = std::pow(10.0, -decimals);
-  text << (std::abs(value) < unit / 2 ? 0.0 : value);  // no "-0.0"
-  return text.str();
-}
-
-/// A tip angle in degrees; a small negative one is not rounded to a standing 0.
-std::string degrees(double angle_rad) {
-  const double angle_deg = angle_rad * 180 / std::numbers::pi;
-  return number(angle_deg, std::abs(angle_deg) < 0.1 && angle_deg != 0 ? 3 : 1);
-}
-
-/// Three significant digits, or whole numbers above.
-std::string figure(double value) {
-  const int digits_before = value == 0 ? 1 : static_cast<int>(std::floor(std::log10(std::abs(value)))) + 1;
-  return number(value, std::clamp(3 - digits_before, 0, 6));
-}
-
-std::string point(Vec3 p) {
-  return std::string("(") + number(p.x, 1) + ", " + number(p.y, 1) + ", " + number(p.z, 1) + ") mm";
-}
-
-std::string line(std::string_view name, const std::string& text) {
-  std::string padded(name);
-  padded.resize(18, ' ');
-  return "  " + padded + text + "\n";
-}
+using detail::degrees;
+using detail::figure;
+using detail::line;
+using detail::number;
+using detail::point;
 
 std::string weakest(const Stability& s) { return "weakest towards " + direction_word(s.heading); }
 
@@ -152,6 +127,7 @@ std::string filling(const BallastFigures& b) {
 
 std::string work(const Report& report) {
   std::string text;
+  if (report.inserts) text += detail::lines_of(*report.inserts);
   if (report.deformation) text += bending(*report.deformation);
   if (report.ballast) text += filling(*report.ballast);
   if (report.carving)

@@ -88,6 +88,7 @@ void visit_job(const Visitor& v, JobFile& job) {
   v.value("deform_limit_percent", job.options.reshape.most_mean_percent);
   v.value("trim_base_mm", job.options.reshape.most_trim_mm);
   visit_regions(v, job.options.reshape.regions);
+  v.value("inserts", job.inserts);
   v.name("holes", holes_names, job.options.holes);
   v.name("ballast", ballast_names, job.options.ballast);
   v.percent("ballast_low_percent", job.options.ballast_low_ratio);
