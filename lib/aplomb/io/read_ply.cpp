@@ -146,7 +146,7 @@ class PlyReader {
   Result<void> read_corners(const PlyElement& element, bool allow_minus_one) {
     const std::size_t indices = std::min(element.find("vertex_indices"), element.find("vertex_index"));
     if (indices == element.properties.size() || !element.properties[indices].count_type)
-      return context_.unusable("", "its elements " + in_quotes(element.name) + " lack a list vertex_indices");
+      return context_.unusable("", "its elements " + in_quotes(element.name) + " lack a list vertex_indices; export the model again");
     corners_.clear();
     for (std::size_t p = 0; p < element.properties.size(); ++p) {
       const PlyProperty& property = element.properties[p];
@@ -244,7 +244,7 @@ Result<MeshFile> read_ply(ReadContext& context) {
     case PlyEncoding::big_endian:
       return PlyReader<BinarySource<true>>(context, *header).read();
   }
-  return context.unusable("", "its encoding is unknown");
+  return context.unusable("", "its encoding is unknown; save it as ASCII");
 }
 
 }  // namespace aplomb::detail
