@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "aplomb/core/printable.h"
 #include "aplomb/io/detail/ply_header.h"
 #include "aplomb/io/detail/polygon.h"
 #include "aplomb/io/detail/readers.h"
@@ -205,7 +206,7 @@ class PlyReader {
     return source_.skip(property.type, static_cast<std::size_t>(count));
   }
 
-  std::string place(const PlyElement& element) const { return element.name.substr(0, 40) + " " + std::to_string(at_); }
+  std::string place(const PlyElement& element) const { return printable(element.name, 40) + " " + std::to_string(at_); }
   tl::unexpected<Error> broken(const PlyElement& element) const {
     return context_.unusable(place(element),
                              "the data end here or are no numbers; the file was cut short, save it again");

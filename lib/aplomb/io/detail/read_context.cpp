@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "aplomb/core/printable.h"
 #include "aplomb/io/detail/text_cursor.h"
 
 namespace aplomb::detail {
@@ -81,10 +82,6 @@ bool GrowingMesh::grow_triangles() {
   return true;
 }
 
-std::string in_quotes(std::string_view text) {
-  std::string shown = "\"";
-  for (const char c : text.substr(0, 80)) shown += static_cast<unsigned char>(c) < 32 || c == 127 ? '?' : c;
-  return shown + (text.size() > 80 ? "...\"" : "\"");
-}
+std::string in_quotes(std::string_view text) { return '"' + printable(text) + '"'; }
 
 }  // namespace aplomb::detail
