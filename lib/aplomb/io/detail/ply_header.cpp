@@ -7,6 +7,8 @@
 namespace aplomb::detail {
 namespace {
 
+constexpr std::size_t kMostElements = 100, kMostProperties = 1000;
+
 std::optional<PlyType> type_named(std::string_view name) {
   constexpr std::pair<std::string_view, PlyType> kNames[] = {
       {"char", PlyType::int8},      {"int8", PlyType::int8},       {"uchar", PlyType::uint8},
@@ -80,6 +82,8 @@ class HeaderReader {
     for (const PlyElement& other : header_.elements)
       if (other.name == element.name)
         return context_.unusable(place(), "there are two elements " + in_quotes(words[1]) + "; export the model again");
+    if (header_.elements.size() == kMostElements)
+      return context_.unusable(place(), "the header has more than 100 elements; export the model again");
     header_.elements.push_back(std::move(element));
     return {};
   }
@@ -96,6 +100,8 @@ class HeaderReader {
                                                         : list    ? 3
                                                                   : 1]) +
                                             " is not a type that can stand here; export the model again");
+    if (header_.elements.back().properties.size() == kMostProperties)
+      return context_.unusable(place(), "an element has more than 1000 properties; export the model again");
     header_.elements.back().properties.push_back({std::string(list ? words[4] : words[2]), *type, count_type});
     return {};
   }
