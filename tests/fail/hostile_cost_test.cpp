@@ -51,7 +51,8 @@ TEST(HostileCost, OnePolygonOfAsManyCornersAsFitTheFileIsWithinTheBudget) {
   for (std::uint32_t i = 0; i < corners; ++i) ply += static_cast<char>(i % 3);
   expect_cheap(ply, "a.ply");
   expect_cheap(ply, "a.ply", {.memory_bytes = 256 * megabyte});
-  expect_cheap("v 0 0 0\nv 1 0 0\nv 0 1 0\nf " + repeated("1 2 3 ", corners / 10), "a.obj", {.memory_bytes = 256 * megabyte});
+  expect_cheap("v 0 0 0\nv 1 0 0\nv 0 1 0\nf " + repeated("1 2 3 ", corners / 10), "a.obj",
+               {.memory_bytes = 256 * megabyte});
 }
 
 TEST(HostileCost, HeadersOfAMillionElementsOrPropertiesAreRefused) {
@@ -70,7 +71,8 @@ TEST(HostileCost, AMillionObjectsItemsComponentsAndVolumesAreWithinTheBudget) {
   const ReadOptions options{.memory_bytes = 400 * megabyte};
   expect_cheap(package(model_xml(tetrahedron_object(1) + objects, one)), "a.3mf", options);
   expect_cheap(package(model_xml(tetrahedron_object(1), repeated(one, 1'000'000))), "a.3mf", options);
-  const std::string assembly = "<object id=\"2\"><components>" + repeated("<component objectid=\"1\"/>", 1'000'000) + "</components></object>";
+  const std::string assembly =
+      "<object id=\"2\"><components>" + repeated("<component objectid=\"1\"/>", 1'000'000) + "</components></object>";
   expect_cheap(package(model_xml(tetrahedron_object(1) + assembly, "<item objectid=\"2\"/>")), "a.3mf", options);
 }
 
@@ -78,13 +80,14 @@ TEST(HostileCost, VolumesThatAllCoverTheWholeMeshAreLeftOutOnce) {
   std::string mesh = "<object id=\"1\"><mesh><vertices>" + repeated("<vertex x=\"0\" y=\"0\" z=\"0\"/>", 3) +
                      "</vertices><triangles>" + repeated("<triangle v1=\"0\" v2=\"1\" v3=\"2\"/>", 200'000) +
                      "</triangles></mesh></object>";
-  const std::string volumes =
-      "<config><object id=\"1\">" +
-      repeated("<volume firstid=\"0\" lastid=\"18446744073709551615\"><metadata key=\"volume_type\" "
-               "value=\"ParameterModifier\"/></volume>",
-               100'000) +
-      "</object></config>";
-  expect_cheap(package(model_xml(mesh, "<item objectid=\"1\"/>"), {{"Metadata/Slic3r_PE_model.config", volumes, true}}), "a.3mf");
+  const std::string volumes = "<config><object id=\"1\">" +
+                              repeated(
+                                  "<volume firstid=\"0\" lastid=\"18446744073709551615\"><metadata key=\"volume_type\" "
+                                  "value=\"ParameterModifier\"/></volume>",
+                                  100'000) +
+                              "</object></config>";
+  expect_cheap(package(model_xml(mesh, "<item objectid=\"1\"/>"), {{"Metadata/Slic3r_PE_model.config", volumes, true}}),
+               "a.3mf");
 }
 
 TEST(HostileCost, LongPathsAndExtensionsOverAndOverAreRefused) {
@@ -92,7 +95,8 @@ TEST(HostileCost, LongPathsAndExtensionsOverAndOverAreRefused) {
   std::string objects = tetrahedron_object(1);
   for (int id = 2; id <= 20; ++id) {
     const std::string component = "<component objectid=\"" + std::to_string(id - 1) + "\" " + path + "/>";
-    objects += "<object id=\"" + std::to_string(id) + "\"><components>" + component + component + "</components></object>";
+    objects +=
+        "<object id=\"" + std::to_string(id) + "\"><components>" + component + component + "</components></object>";
   }
   expect_cheap(package(model_xml(objects, "<item objectid=\"20\"/>")), "a.3mf");
   std::string model = model_xml(tetrahedron_object(1), "<item objectid=\"1\"/>"), attributes;
@@ -106,10 +110,14 @@ TEST(HostileCost, PartsThatExpandTogetherAreRefusedAsOneBombIs) {
   std::string components;
   for (int i = 0; i < 40; ++i) {
     const std::string name = "3D/" + std::to_string(i) + ".model";
-    parts.push_back({name, model_xml("<object id=\"1\"><mesh/></object>" + std::string((is_sanitized() ? 2 : 30) * megabyte, ' '), ""), true});
+    parts.push_back(
+        {name,
+         model_xml("<object id=\"1\"><mesh/></object>" + std::string((is_sanitized() ? 2 : 30) * megabyte, ' '), ""),
+         true});
     components += "<component objectid=\"1\" p:path=\"/" + name + "\"/>";
   }
-  const std::string root = model_xml("<object id=\"1\"><components>" + components + "</components></object>", "<item objectid=\"1\"/>");
+  const std::string root =
+      model_xml("<object id=\"1\"><components>" + components + "</components></object>", "<item objectid=\"1\"/>");
   const std::string bytes = package(root, parts);
   expect_cheap(bytes, "a.3mf");
   EXPECT_EQ(read_text(bytes, "a.3mf").error().code, ErrorCode::over_budget);

@@ -40,10 +40,13 @@ std::string repeated(std::string_view text, std::size_t count) {
 
 TEST(HostileText, JobsThatNestAHundredThousandDeepAreRefusedWithoutACrash) {
   for (const auto& [open, close] : {std::pair{"[", "]"}, {"{\"a\":", "}"}}) {
-    expect_bad_job("{\"aplomb_job\": 1, \"model\": " + repeated(open, 100'000) + "1" + repeated(close, 100'000) + "}", "nests deeper");
+    expect_bad_job("{\"aplomb_job\": 1, \"model\": " + repeated(open, 100'000) + "1" + repeated(close, 100'000) + "}",
+                   "nests deeper");
     expect_bad_job(repeated(open, 500'000), "nests deeper");
   }
-  expect_bad_job("{\"aplomb_job\": 1, \"model\": \"" + repeated("[", 500) + "\\\"" + repeated("{", 500) + "\", \"x\": 1}", "no key 'x'");
+  expect_bad_job(
+      "{\"aplomb_job\": 1, \"model\": \"" + repeated("[", 500) + "\\\"" + repeated("{", 500) + "\", \"x\": 1}",
+      "no key 'x'");
 }
 
 TEST(HostileText, WhatAJobHoldsIsShownShortAndWithoutControlCharacters) {
@@ -53,7 +56,10 @@ TEST(HostileText, WhatAJobHoldsIsShownShortAndWithoutControlCharacters) {
   expect_bad_job("{\"aplomb_job\": 1, \"model\": 1" + std::string(500'000, '0') + "}", "no JSON");
   expect_bad_job("{\"aplomb_job\": 1, \"model\": " + std::string(500'000, 'x') + "}", "no JSON");
   expect_bad_job("{\"aplomb_job\": \"\\u001b]0;title\\u0007\", \"model\": \"a\"}", "must be");
-  expect_bad_job("\"\xC2\x9B" "2J", "no JSON");
+  expect_bad_job(
+      "\"\xC2\x9B"
+      "2J",
+      "no JSON");
 }
 
 TEST(HostileText, JobsOfOtherEncodingsCutOffOrWithNumbersNoDoubleHoldsAreRefused) {
@@ -83,7 +89,7 @@ TEST(HostileText, FilesWithoutAnEndAreReadNoFurtherThanTheirLimit) {
     if (read_job("/dev/zero") || read_profile("/dev/zero")) abort();
   });
   EXPECT_TRUE(cost.ended);
-  if (!is_sanitized()) EXPECT_LT(cost.peak_bytes, std::size_t{100} << 20);
+  EXPECT_LT(cost.peak_bytes, std::size_t{is_sanitized() ? 1000 : 100} << 20);
   EXPECT_FALSE(read_job(".."));
   EXPECT_FALSE(read_profile(".."));
   EXPECT_EQ(read_mesh("/dev/zero", {.memory_bytes = 1 << 20}).error().code, ErrorCode::over_budget);
@@ -91,7 +97,8 @@ TEST(HostileText, FilesWithoutAnEndAreReadNoFurtherThanTheirLimit) {
 
 TEST(HostileText, NumbersOfAProfileOutOfEveryRangeAreNamed) {
   const std::string prusa = "perimeters = 2\nfill_density = 15%\n", cura = "infill_sparse_density = 20\n";
-  for (const char* bad : {"nan", "inf", "x", "", "1e999"}) expect_bad_profile(prusa + "layer_height = " + bad, "layer_height");
+  for (const char* bad : {"nan", "inf", "x", "", "1e999"})
+    expect_bad_profile(prusa + "layer_height = " + bad, "layer_height");
   expect_bad_profile(prusa + "layer_height = 0x10", "layer_mm");
   expect_bad_profile(prusa + "layer_height = \x1b[2J", "'?[2J'");
   expect_bad_profile(prusa + "layer_height = " + std::string(1'000'000, 'x'), "...'");
@@ -107,31 +114,39 @@ TEST(HostileText, NumbersOfAProfileOutOfEveryRangeAreNamed) {
 
 TEST(HostileText, WhatIsNoProfileIsRefused) {
   for (const std::string& text : {""s, "\0\0\0"s, "PK\x03\x04"s, repeated("[", 500'000), repeated("{\"a\":", 200'000),
-                                  "{\"perimeters\": [1], \"fill_density\": {}}"s, std::string(1'000'000, '='), repeated("a=b\n", 300'000),
-                                  "\xFF\xFEp\0e\0r\0"s})
+                                  "{\"perimeters\": [1], \"fill_density\": {}}"s, std::string(1'000'000, '='),
+                                  repeated("a=b\n", 300'000), "\xFF\xFEp\0e\0r\0"s})
     expect_bad_profile(text, "no profile");
 }
 
 TEST(HostileText, TextMadePrintableHoldsNothingThatATerminalObeys) {
   EXPECT_EQ(printable("a\x1b[2J\r\n\t\x7f\0b"s), "a?[2J?????b");
-  EXPECT_EQ(printable("\xC2\x9B" "2J"), "\xC2?2J");
+  EXPECT_EQ(printable("\xC2\x9B"
+                      "2J"),
+            "\xC2?2J");
   EXPECT_EQ(printable("B\xC3\xA4r"), "B\xC3\xA4r");
   EXPECT_EQ(printable("abcdef", 3), "abc...");
   EXPECT_EQ(printable(""), "");
 }
 
 TEST(HostileText, EveryTextFormatIsReadWithAnyLineEndAndAMark) {
-  const std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3", off = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2",
-                    stl = "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid",
-                    ply = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face "
-                          "1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2";
+  const std::string
+      obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3",
+      off = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2",
+      stl =
+          "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 "
+          "0\nendloop\nendfacet\nendsolid",
+      ply =
+          "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face "
+          "1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2";
   for (const auto& [text, name] : {std::pair{obj, "a.obj"}, {off, "a.off"}, {stl, "a.stl"}, {ply, "a.ply"}})
     for (const std::string& end : {"\n"s, "\r\n"s, "\r"s}) {
       std::string other;
       for (const char c : text) other += c == '\n' ? end : std::string(1, c);
       for (const std::string& whole : {other, other + end}) {
         EXPECT_TRUE(read_text(whole, name)) << name << end.size();
-        if (std::string_view(name) != "a.ply") EXPECT_TRUE(read_text("\xEF\xBB\xBF" + whole, name)) << name << end.size();
+        const bool is_marked = name != std::string_view("a.ply") && read_text("\xEF\xBB\xBF" + whole, name);
+        EXPECT_TRUE(is_marked || name == std::string_view("a.ply")) << name << end.size();
       }
       std::string utf16 = "\xFF\xFE";
       for (const char c : other) utf16 += std::string{c, '\0'};

@@ -20,7 +20,8 @@ inline void check_error(const Error& error) {
   promise(!error.message.empty() && error.message.size() < 1000, "a message of fitting length: " + error.message);
   for (const char c : error.message)
     promise(static_cast<unsigned char>(c) >= 32 && c != 127, "a message without control characters: " + error.message);
-  promise(error.code != ErrorCode::internal && error.code != ErrorCode::third_party, "no fault of ours: " + error.message);
+  promise(error.code != ErrorCode::internal && error.code != ErrorCode::third_party,
+          "no fault of ours: " + error.message);
 }
 
 /// An error that tells what to do about it behind its semicolon.

@@ -26,7 +26,8 @@ std::string package_of(std::string_view text) {
     text.remove_prefix(separator.size());
     const std::string_view part = text.substr(0, text.find(separator));
     const std::size_t line_end = std::min(part.find('\n'), part.size());
-    more.push_back({std::string(part.substr(0, line_end)), std::string(part.substr(std::min(part.size(), line_end + 1)))});
+    more.push_back(
+        {std::string(part.substr(0, line_end)), std::string(part.substr(std::min(part.size(), line_end + 1)))});
     text.remove_prefix(part.size());
   }
   return test::package(model, std::move(more));

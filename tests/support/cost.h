@@ -7,9 +7,9 @@
 namespace aplomb::test {
 
 struct Cost {
-  bool ended = false;         ///< false: it crashed
-  double seconds = 0;         ///< of CPU
-  std::size_t peak_bytes = 0; ///< of memory, on top of what the process held before
+  bool ended = false;          ///< false: it crashed
+  double seconds = 0;          ///< of CPU
+  std::size_t peak_bytes = 0;  ///< of memory, on top of what the process held before
 };
 
 Cost cost_of(const std::function<void()>& work);

@@ -166,8 +166,7 @@ std::string find_problem(const PrintProfile& p) {
     return fmt::format("infill_ratio is {} but must be from 0 to 1", p.infill_ratio);
   if (p.perimeters < 0 || p.perimeters > 1000)
     return fmt::format("perimeters is {} but must be from 0 to 1000", p.perimeters);
-  for (const auto& [name, count] :
-       {std::pair{"top_layers", p.top_layers}, std::pair{"bottom_layers", p.bottom_layers}})
+  for (const auto& [name, count] : {std::pair{"top_layers", p.top_layers}, std::pair{"bottom_layers", p.bottom_layers}})
     if (count < 0 || count > 1'000'000) return fmt::format("{} is {} but must be from 0 to 1000000", name, count);
   if (!(std::abs(p.infill_overlap_mm) < 100))
     return fmt::format("infill_overlap_mm is {} but must be above -100 and below 100", p.infill_overlap_mm);
@@ -202,7 +201,7 @@ Result<PrintProfile> read_profile(const std::filesystem::path& path) {
     return fail(ErrorCode::file_system, path.string() + ": the profile cannot be read");
   const std::streamoff size = file.tellg();
   file.seekg(std::max<std::streamoff>(0, size - most_bytes));  // a G-code's settings are its end
-  std::string text(most_bytes, '\0');  // and no more, should it have no end
+  std::string text(most_bytes, '\0');                          // and no more, should it have no end
   file.read(text.data(), most_bytes);
   text.resize(static_cast<std::size_t>(file.gcount()));
   return parse_profile(text).map_error([&path](Error error) {

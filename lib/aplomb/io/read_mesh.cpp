@@ -93,7 +93,8 @@ Result<MeshFile> finished(MeshFile file, ReadContext& context) {
     auto indexed = detail::indexed_by_position(object.mesh, context);
     if (!indexed) return tl::unexpected<Error>(indexed.error());
     object.mesh = std::move(*indexed);
-    context.note("every triangle of " + detail::in_quotes(object.name) + " had vertices of its own; equal positions were made one");
+    context.note("every triangle of " + detail::in_quotes(object.name) +
+                 " had vertices of its own; equal positions were made one");
   }
   file.notes = context.take_notes();
   return file;

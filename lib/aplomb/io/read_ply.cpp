@@ -147,7 +147,8 @@ class PlyReader {
   Result<void> read_corners(const PlyElement& element, bool allow_minus_one) {
     const std::size_t indices = std::min(element.find("vertex_indices"), element.find("vertex_index"));
     if (indices == element.properties.size() || !element.properties[indices].count_type)
-      return context_.unusable("", "its elements " + in_quotes(element.name) + " lack a list vertex_indices; export the model again");
+      return context_.unusable(
+          "", "its elements " + in_quotes(element.name) + " lack a list vertex_indices; export the model again");
     corners_.clear();
     for (std::size_t p = 0; p < element.properties.size(); ++p) {
       const PlyProperty& property = element.properties[p];
@@ -159,6 +160,7 @@ class PlyReader {
       if (!source_.read(*property.count_type, count) || !(count >= 0 && count == std::floor(count)))
         return broken(element);
       for (double i = 0; i < count; ++i) {
+        if (auto admitted = context_.admit_corner(corners_.size()); !admitted) return admitted;
         double index = 0;
         if (!source_.read(property.type, index)) return broken(element);
         const bool separator = allow_minus_one && index == -1;

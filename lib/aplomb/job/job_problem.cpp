@@ -101,7 +101,8 @@ std::string problem_of_object(const JobPlace& place) {
   Json keys = Json::array();
   for (const auto& [key, ignored] : allowed.items()) keys.push_back(key);
   for (const auto& [key, ignored] : place.value->items())
-    if (!allowed.contains(key)) return fmt::format("{} has no key '{}'; its keys are {}", name, printable(key), names(keys));
+    if (!allowed.contains(key))
+      return fmt::format("{} has no key '{}'; its keys are {}", name, printable(key), names(keys));
   if (place.schema->contains("required"))
     for (const Json& key : (*place.schema)["required"])
       if (!place.value->contains(key.get<std::string>()))

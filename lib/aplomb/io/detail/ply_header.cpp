@@ -44,7 +44,8 @@ class HeaderReader {
     const char line_end = rest.substr(3, 2) == "\r\n" || rest[3] == '\n' ? '\n' : '\r';
     for (;;) {
       const auto end = rest.find(line_end);
-      if (end == rest.npos) return context_.unusable(place(), "the header has no end_header; it was cut short, save the file again");
+      if (end == rest.npos)
+        return context_.unusable(place(), "the header has no end_header; it was cut short, save the file again");
       const auto words = words_of(rest.substr(0, end));
       rest.remove_prefix(end + 1);
       ++line_;
@@ -89,9 +90,11 @@ class HeaderReader {
   }
 
   Result<void> read_property(const std::vector<std::string_view>& words) {
-    if (header_.elements.empty()) return context_.unusable(place(), "a property stands before any element; export the model again");
+    if (header_.elements.empty())
+      return context_.unusable(place(), "a property stands before any element; export the model again");
     const bool list = words[1] == "list";
-    if (list && words.size() < 5) return context_.unusable(place(), "a list property lacks its types or its name; export the model again");
+    if (list && words.size() < 5)
+      return context_.unusable(place(), "a list property lacks its types or its name; export the model again");
     const auto count_type = list ? type_named(words[2]) : std::nullopt;
     const auto type = type_named(list ? words[3] : words[1]);
     const bool bad_count = list && (!count_type || *count_type >= PlyType::float32);

@@ -12,12 +12,6 @@ Result<void> PolygonCutter::add(std::span<const std::uint32_t> corners) {
     if (!mesh_.add_triangle({corners[0], corners[1], corners[2]})) return mesh_.failure();
     return {};
   }
-  constexpr std::size_t kBytesEach = sizeof(Point) + 3 * sizeof(std::uint32_t);  // corners and this class's rings
-  const TriangleMesh& mesh = mesh_.mesh();
-  if (auto admitted = context_.admit(mesh.vertices.capacity(), mesh.triangles.size() + corners.size() - 2,
-                                     2 * kBytesEach * corners.size());
-      !admitted)
-    return admitted;
   project(corners);
   if (!strictly_convex()) return clip_ears(corners);
   for (std::size_t i = 2; i < corners.size(); ++i)

@@ -48,6 +48,11 @@ Result<void> ReadContext::admit(std::size_t vertices, std::size_t triangles, std
   return {};
 }
 
+Result<void> ReadContext::admit_polygon(std::size_t corners) const {
+  constexpr std::size_t kBytesEach = 48;  // a list that doubles, points and two rings
+  return admit(0, corners, kBytesEach * corners);
+}
+
 void ReadContext::note(std::string sentence) {
   constexpr std::size_t kEnough = 100;
   if (notes_.size() < kEnough && std::find(notes_.begin(), notes_.end(), sentence) == notes_.end())

@@ -239,8 +239,8 @@ class PartReader {
 
 namespace {
 
-/// What the tree may take at most: two nodes for a '<', an attribute for a '=', and the text once more, should it not be
-/// UTF-8.
+/// What the tree may take at most: two nodes for a '<', an attribute for a '=', and the text once more, should it not
+/// be UTF-8.
 std::size_t tree_bytes_of(const std::string& xml) {
   const auto tags = std::count(xml.begin(), xml.end(), '<'), attributes = std::count(xml.begin(), xml.end(), '=');
   const bool is_converted = xml.find('\0') != xml.npos;

@@ -17,7 +17,8 @@ constexpr std::size_t kMostDirectory = std::size_t{16} << 20;
 
 std::uint64_t little_endian(std::string_view bytes, std::size_t count) {
   std::uint64_t value = 0;
-  for (std::size_t i = std::min(count, bytes.size()); i-- > 0;) value = value << 8 | static_cast<unsigned char>(bytes[i]);
+  for (std::size_t i = std::min(count, bytes.size()); i-- > 0;)
+    value = value << 8 | static_cast<unsigned char>(bytes[i]);
   return value;
 }
 
@@ -26,11 +27,13 @@ std::uint64_t little_endian(std::string_view bytes, std::size_t count) {
 std::uint64_t directory_bytes(std::string_view text) {
   constexpr std::size_t kSearched = 70'000;  // a record, and its comment of at most 65,535
   std::uint64_t most = 0;
-  for (std::size_t at = text.size() - std::min(text.size(), kSearched); (at = text.find("PK\5\6", at)) != text.npos; ++at) {
+  for (std::size_t at = text.size() - std::min(text.size(), kSearched); (at = text.find("PK\5\6", at)) != text.npos;
+       ++at) {
     std::uint64_t size = little_endian(text.substr(std::min(text.size(), at + 12)), 4);
     if (size == 0xffffffff && at >= 20) {
       const std::uint64_t record = little_endian(text.substr(at - 20 + 8), 8);
-      size = record < text.size() ? little_endian(text.substr(std::min<std::size_t>(text.size(), record + 40)), 8) : size;
+      size =
+          record < text.size() ? little_endian(text.substr(std::min<std::size_t>(text.size(), record + 40)), 8) : size;
     }
     most = std::max(most, size);
   }
@@ -99,13 +102,13 @@ Result<std::string> ZipReader::read(std::string_view name) {
     return context_->unusable(place, "it is a symbolic link, which a 3MF cannot hold; export the model again");
   // Of each part, and of all together: parts may share the bytes that they unpack from.
   unpacked_ += static_cast<double>(status.size);
-  for (const auto [size, packed] : {std::pair{static_cast<double>(status.size), status.comp_size},
-                                    {unpacked_, static_cast<zip_uint64_t>(context_->bytes().size())}})
+  for (const auto& [size, packed] : {std::pair{static_cast<double>(status.size), status.comp_size},
+                                     {unpacked_, static_cast<zip_uint64_t>(context_->bytes().size())}})
     if (const double fold = size / static_cast<double>(std::max<zip_uint64_t>(1, packed));
         size > kSmallPart && fold > kMostExpansion)
-      return fail(ErrorCode::over_budget,
-                  context_->name() + ", " + place + ": it expands " + std::to_string(static_cast<long long>(fold)) +
-                      "-fold, as no model does; export it again");
+      return fail(ErrorCode::over_budget, context_->name() + ", " + place + ": it expands " +
+                                              std::to_string(static_cast<long long>(fold)) +
+                                              "-fold, as no model does; export it again");
   if (auto admitted = context_->admit(0, 0, status.size); !admitted) return tl::unexpected<Error>(admitted.error());
   return inflate(entry->second, status.size, place);
 }
