@@ -1,7 +1,11 @@
 // Small or large files made to cost more than they are: every one ends in under 10 s, within the memory budget.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "support/cost.h"
+#include "support/gcode_files.h"
 #include "support/mesh_files.h"
 #include "support/zip_files.h"
 
@@ -133,6 +137,50 @@ TEST(HostileCost, ADirectoryOfMillionsOfEntriesIsRefusedBeforeItIsRead) {
   const auto size = static_cast<std::uint32_t>(one.size() * count);
   for (int i = 0; i < 4; ++i) tail[12 + i] = static_cast<char>(size >> (8 * i));
   expect_cheap(zip.substr(0, directory) + repeated(one, count) + tail, "a.3mf", {.memory_bytes = 100 * megabyte});
+}
+
+/// Reads a program in a process of its own, which must end in time and in the constant memory that is promised.
+void expect_cheap_program(const std::string& program) {
+  const Cost cost = cost_of([&] { read_program(program); });
+  EXPECT_TRUE(cost.ended);
+  if (is_sanitized()) return;
+  EXPECT_LT(cost.seconds, 10);
+  EXPECT_LT(cost.peak_bytes, 100 * megabyte);
+}
+
+TEST(HostileCost, ARoundFootOfAHundredThousandBeadsCostsNoMoreThanItsLength) {
+  std::string program = plain_start();
+  const int beads = is_sanitized() ? 5'000 : 200'000;
+  for (int i = 0; i < beads; ++i) {
+    const double angle = 2 * std::numbers::pi * i / beads;
+    program += "G1 X" + std::to_string(1e4 * std::cos(angle)) + " Y" + std::to_string(1e4 * std::sin(angle)) + " E1\n";
+  }
+  expect_cheap_program(program);
+  expect_cheap_program(";TYPE:Skirt\n" + program + ";TYPE:Perimeter\nG1 X0 Y0 E1\nG1 X5 E1\nG1 Y5 E1\n");
+}
+
+TEST(HostileCost, ThousandsOfObjectsBesideThousandsOfBrimsCostNoMoreThanTheirProduct) {
+  std::string program = plain_start() + ";TYPE:Skirt\n";
+  const int count = is_sanitized() ? 300 : 4'000;
+  for (int i = 0; i < count; ++i) {
+    const std::string x = "G1 X" + std::to_string(10 * i);
+    program += x + " Y0\n" + x + ".5 Y1 E0.1\n";
+  }
+  for (int i = 0; i < count; ++i) {
+    program += "; printing object " + std::to_string(i) + "\n";
+    for (int tool = 0; tool < 20; ++tool)
+      program += ";TYPE:Perimeter\nT" + std::to_string(tool) + "\nG1 X" + std::to_string(tool % 7) + " Y" +
+                 std::to_string(i % 11) + " E1\n";
+  }
+  expect_cheap_program(program);
+}
+
+TEST(HostileCost, LabelsOfAMegabyteEachAreNotKept) {
+  std::string program = plain_start();
+  for (int i = 0; i < (is_sanitized() ? 10 : 300); ++i)
+    program += "; printing object " + std::to_string(i) + std::string(900'000, 'n') + "\nG1 X" + std::to_string(i % 7) +
+               " E1\n";
+  expect_cheap_program(program);
 }
 
 }  // namespace

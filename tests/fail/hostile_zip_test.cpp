@@ -1,5 +1,5 @@
-// Zips that lie: overlapping entries, entries of zip64 that claim what is not there, truncated and garbled archives; and 3MF parts
-// without what they need.
+// Zips that lie: overlapping entries, entries of zip64 that claim what is not there, truncated and garbled archives;
+// and 3MF parts without what they need.
 #include <gtest/gtest.h>
 
 #include "support/mesh_files.h"
@@ -78,14 +78,15 @@ TEST(HostileZip, AnArchiveInsideAnArchiveIsNoModel) {
 }
 
 TEST(HostileZip, NamesOfEntriesThatAreEmptyLongBinaryOrPathsAreKeysOnly) {
-  for (const std::string& name : {std::string(), std::string("/"), std::string(60'000, 'x'), std::string("\xff\xfe\x1b[2J"),
-                                  std::string("C:\\Windows\\x"), std::string("../../x"), std::string("a\0b", 3)})
+  for (const std::string& name :
+       {std::string(), std::string("/"), std::string(60'000, 'x'), std::string("\xff\xfe\x1b[2J"),
+        std::string("C:\\Windows\\x"), std::string("../../x"), std::string("a\0b", 3)})
     EXPECT_TRUE(read_text(package(good_model, {{name, "x"}}), "a.3mf")) << name.substr(0, 20);
 }
 
 TEST(HostileZip, ModelsWithoutTheirAttributesOrElementsAreRefusedWithTheirPlace) {
-  for (const char* missing : {" id=\"1\"", " objectid=\"1\"", " x=\"0\"", " y=\"0\"", " z=\"0\"", " v1=\"0\"", " v2=\"2\"", "<mesh>", "<vertices>",
-                              "<triangles>", "<build>", "<resources>"}) {
+  for (const char* missing : {" id=\"1\"", " objectid=\"1\"", " x=\"0\"", " y=\"0\"", " z=\"0\"", " v1=\"0\"",
+                              " v2=\"2\"", "<mesh>", "<vertices>", "<triangles>", "<build>", "<resources>"}) {
     std::string model = good_model;
     const std::size_t at = model.find(missing);
     const std::size_t from = at != model.npos ? at : model.find(missing + 1);
