@@ -115,7 +115,8 @@ TEST_F(HostileFiles, ModelsOfAKilometreOrANanometreAndVoxelsOfEverySizeEndInAShe
   expect_refused("stand " + large + " --voxel 0.1mm --tip 1deg", 5, "memory");
   expect_shell_or_reason(toppling(), "--voxel 500mm");
   expect_shell_or_reason(toppling(), "--wall 400mm");
-  expect_shell_or_reason(write("far.stl", transformed(box({0, 0, 0}, {20, 20, 40}), test::translation({1e9, -1e9, 1e9}))));
+  expect_shell_or_reason(
+      write("far.stl", transformed(box({0, 0, 0}, {20, 20, 40}), test::translation({1e9, -1e9, 1e9}))));
 }
 
 TEST_F(HostileFiles, FiftyMillionFacetsThatAreNotThereAreRefusedAndTooManyAreOverBudget) {
@@ -132,7 +133,8 @@ TEST_F(HostileFiles, FiftyMillionFacetsThatAreNotThereAreRefusedAndTooManyAreOve
 }
 
 TEST_F(HostileFiles, ScriptsInAProjectAreLeftOutAndThatIsSaid) {
-  const std::string model = test::model_xml(test::tetrahedron_object(1), "<item objectid=\"1\" transform=\"20 0 0 0 20 0 0 0 20 0 0 0\"/>");
+  const std::string model =
+      test::model_xml(test::tetrahedron_object(1), "<item objectid=\"1\" transform=\"20 0 0 0 20 0 0 0 20 0 0 0\"/>");
   const std::string script = "; post_process = touch " + path("owned") + "\n";
   std::ofstream(path("project.3mf"), std::ios::binary) << test::package(model, {{"Metadata/Slic3r_PE.config", script}});
   run("stand " + path("project.3mf") + " --best-effort -o " + path("out.3mf"));
