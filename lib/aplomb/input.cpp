@@ -22,6 +22,11 @@ std::string several_prints(const std::vector<TriangleMesh>& prints) {
 
 TriangleMesh all_objects(const MeshFile& file) {
   TriangleMesh all;
+  std::size_t vertices = 0, triangles = 0;
+  for (const MeshObject& part : file.objects)
+    vertices += part.mesh.vertices.size(), triangles += part.mesh.triangles.size();
+  all.vertices.reserve(vertices);
+  all.triangles.reserve(triangles);
   for (const MeshObject& part : file.objects) all = joined(std::move(all), part.mesh);
   return all;
 }

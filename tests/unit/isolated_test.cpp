@@ -1,12 +1,16 @@
 #include "aplomb/core/isolated.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <stdexcept>
 #include <vector>
 
@@ -54,6 +58,47 @@ TEST(RunIsolated, work_without_end_is_stopped_at_its_limit) {
 TEST(RunIsolated, memory_beyond_the_limit_is_refused) {
   const auto eat = []() -> std::string { return std::to_string(std::vector<char>(std::size_t{1} << 31, 'x').back()); };
   EXPECT_EQ(run_isolated(eat, {.memory_mb = 256}).error().code, ErrorCode::over_budget);
+}
+
+TEST(RunIsolated, a_child_killed_from_outside_is_an_error_that_names_the_signal) {
+  for (const int signal : {SIGKILL, SIGTERM}) {
+    const auto result = run_isolated(
+        [signal]() -> std::string {
+          kill(getpid(), signal);
+          return endless();
+        },
+        {});
+    EXPECT_EQ(result.error().code, ErrorCode::third_party);
+    EXPECT_NE(result.error().message.find(strsignal(signal)), std::string::npos) << result.error().message;
+  }
+}
+
+TEST(RunIsolated, a_stack_that_overflows_is_an_error) {
+  struct Deep {
+    static int fall(volatile int* above) {
+      volatile int here[1024];
+      here[0] = *above;
+      if (here[0] != 0) return 0;  // never
+      return fall(here) + here[0];
+    }
+  };
+  volatile int start = 0;
+  const auto result = run_isolated([&start] { return std::to_string(Deep::fall(&start)); }, {.memory_mb = 256});
+  EXPECT_EQ(result.error().code, ErrorCode::third_party);
+}
+
+TEST(RunIsolated, many_children_leave_neither_processes_nor_open_files_behind) {
+  const auto open_files = [] {
+    int count = 0;
+    for (int file = 0; file < 256; ++file) count += fcntl(file, F_GETFD) != -1;
+    return count;
+  };
+  const int before = open_files();
+  for (int i = 0; i < 50; ++i)
+    run_isolated([i]() -> std::string { return i % 2 ? std::string("x") : (std::abort(), ""); }, {});
+  EXPECT_EQ(open_files(), before);
+  EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1);  // no child is left, alive or dead
+  EXPECT_EQ(errno, ECHILD);
 }
 
 TEST(RunIsolated, a_cancel_ends_the_child) {

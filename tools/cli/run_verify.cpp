@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <fstream>
-#include <sstream>
+#include <string>
 
 #include "aplomb/report/verification.h"
 #include "talk.h"
@@ -14,9 +14,11 @@ namespace {
 Result<ExpectedPrint> read_expected(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) return fail(ErrorCode::file_system, path.string() + ": the report cannot be read");
-  std::ostringstream text;
-  text << file.rdbuf();
-  return expected_print(text.str()).map_error([&path](Error error) {
+  constexpr std::streamsize most_bytes = 64 << 20;
+  std::string text(most_bytes, '\0');
+  file.read(text.data(), most_bytes);
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  return expected_print(text).map_error([&path](Error error) {
     error.message = path.string() + ": " + error.message;
     return error;
   });

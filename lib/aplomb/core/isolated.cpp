@@ -1,5 +1,10 @@
 #include "aplomb/core/isolated.h"
 
+#if !defined(__unix__) && !defined(__APPLE__)
+#error \
+    "run_isolated() needs fork(): without it what may crash would take the whole program along; port it before building here"
+#endif
+
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/resource.h>

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -9,7 +10,8 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
-#include <sstream>
+
+#include "aplomb/core/printable.h"
 
 namespace aplomb {
 namespace {
@@ -68,7 +70,7 @@ class Reader {
     const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), parsed);
     if (error == std::errc{} && std::isfinite(parsed))
       return end < value.data() + value.size() && *end == '%' ? parsed / 100 * whole : parsed;
-    if (problem_.empty()) problem_ = fmt::format("{} is '{}', which is no number", name, value);
+    if (problem_.empty()) problem_ = fmt::format("{} is '{}', which is no number", name, printable(value));
     return otherwise;
   }
   const std::string& problem() const { return problem_; }
@@ -77,6 +79,9 @@ class Reader {
   const Settings& settings_;
   std::string problem_;
 };
+
+/// A count of walls or layers: find_problem() refuses what is out of its range, but an int must hold it.
+int count_of(double count) { return std::isnan(count) ? -1 : static_cast<int>(std::clamp(count, -1.0, 1e6)); }
 
 int layers_of(double count, double least_mm, double layer_mm) {
   if (!(count > 0)) return 0;
@@ -95,7 +100,7 @@ PrintProfile prusaslicer_profile(Reader& r) {
   p.nozzle_mm = r.number("nozzle_diameter", 0.4);
   p.layer_mm = r.number("layer_height", 0.3);
   p.first_layer_mm = r.number("first_layer_height", 0.35, p.layer_mm);
-  p.perimeters = static_cast<int>(r.number("perimeters", 3));
+  p.perimeters = count_of(r.number("perimeters", 3));
   p.external_width_mm = width_of(r, "external_perimeter_extrusion_width", p.layer_mm, p.nozzle_mm);
   p.perimeter_width_mm = width_of(r, "perimeter_extrusion_width", p.layer_mm, p.nozzle_mm);
   p.infill_width_mm = width_of(r, "infill_extrusion_width", p.layer_mm, p.nozzle_mm);
@@ -131,12 +136,12 @@ PrintProfile cura_profile(Reader& r) {
   p.infill_width_mm = r.number("infill_line_width", line_mm);
   p.solid_width_mm = r.number("skin_line_width", line_mm);
   const double thickness_mm = r.number("wall_thickness", 2 * line_mm);
-  p.perimeters = static_cast<int>(
+  p.perimeters = count_of(
       r.number("wall_line_count", std::round(1 + (thickness_mm - p.external_width_mm) / p.perimeter_width_mm)));
   const double skin_mm = r.number("top_bottom_thickness", 0.8);
-  p.top_layers = static_cast<int>(r.number("top_layers", layers_of(1, r.number("top_thickness", skin_mm), p.layer_mm)));
+  p.top_layers = count_of(r.number("top_layers", layers_of(1, r.number("top_thickness", skin_mm), p.layer_mm)));
   p.bottom_layers =
-      static_cast<int>(r.number("bottom_layers", layers_of(1, r.number("bottom_thickness", skin_mm), p.layer_mm)));
+      count_of(r.number("bottom_layers", layers_of(1, r.number("bottom_thickness", skin_mm), p.layer_mm)));
   p.infill_ratio = r.number("infill_sparse_density", 20) / 100;
   p.infill_pattern = r.text("infill_pattern", "grid");
   p.infill_overlap_mm = r.number("infill_overlap_mm", r.number("infill_overlap", 10) / 100 * p.infill_width_mm);
@@ -161,8 +166,14 @@ std::string find_problem(const PrintProfile& p) {
     return fmt::format("infill_ratio is {} but must be from 0 to 1", p.infill_ratio);
   if (p.perimeters < 0 || p.perimeters > 1000)
     return fmt::format("perimeters is {} but must be from 0 to 1000", p.perimeters);
-  if (!(p.density_g_per_cm3 >= 0))
-    return fmt::format("density_g_per_cm3 is {} but must be at least 0", p.density_g_per_cm3);
+  for (const auto& [name, count] : {std::pair{"top_layers", p.top_layers}, std::pair{"bottom_layers", p.bottom_layers}})
+    if (count < 0 || count > 1'000'000) return fmt::format("{} is {} but must be from 0 to 1000000", name, count);
+  if (!(std::abs(p.infill_overlap_mm) < 100))
+    return fmt::format("infill_overlap_mm is {} but must be above -100 and below 100", p.infill_overlap_mm);
+  if (!(p.solid_below_mm2 >= 0 && p.solid_below_mm2 <= 1e9))
+    return fmt::format("solid_below_mm2 is {} but must be from 0 to 1e9", p.solid_below_mm2);
+  if (!(p.density_g_per_cm3 >= 0 && p.density_g_per_cm3 < 30))
+    return fmt::format("density_g_per_cm3 is {} but must be at least 0 and below 30", p.density_g_per_cm3);
   return {};
 }
 
@@ -190,9 +201,10 @@ Result<PrintProfile> read_profile(const std::filesystem::path& path) {
     return fail(ErrorCode::file_system, path.string() + ": the profile cannot be read");
   const std::streamoff size = file.tellg();
   file.seekg(std::max<std::streamoff>(0, size - most_bytes));  // a G-code's settings are its end
-  std::ostringstream text;
-  text << file.rdbuf();
-  return parse_profile(text.str()).map_error([&path](Error error) {
+  std::string text(most_bytes, '\0');                          // and no more, should it have no end
+  file.read(text.data(), most_bytes);
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  return parse_profile(text).map_error([&path](Error error) {
     error.message = path.string() + ": " + error.message;
     return error;
   });

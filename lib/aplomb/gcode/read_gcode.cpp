@@ -92,7 +92,7 @@ class Reader {
       : path_(path), filaments_(filaments), ledger_(filaments, is_one) {}
 
   Result<void> read(LineSource& lines, const Job& job);
-  Result<PrintedPlate> plate(const LineSource& lines) const;
+  Result<PrintedPlate> plate(const LineSource& lines);
 
  private:
   Result<void> read_line(std::string_view line);
@@ -166,7 +166,7 @@ std::vector<std::string> Reader::notes(const PrintedPlate& plate) const {
   return notes;
 }
 
-Result<PrintedPlate> Reader::plate(const LineSource& lines) const {
+Result<PrintedPlate> Reader::plate(const LineSource& lines) {
   if (annotations_.slicer() != Slicer::unknown && !annotations_.saw_end())
     return unusable(path_, fmt::format("it ends too early, after line {}{}: what {} writes at the end is missing",
                                        lines.line_number(), lines.ended_within_a_line() ? " (cut off)" : "",

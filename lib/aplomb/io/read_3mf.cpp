@@ -171,13 +171,19 @@ class Assembler {
   static TriangleMesh without(const TriangleMesh& mesh,
                               const std::vector<std::pair<std::size_t, std::size_t>>& ranges) {
     constexpr std::uint32_t kUnused = 0xffffffff;
-    std::vector<bool> dropped(mesh.triangles.size());
-    for (const auto& [first, last] : ranges)
-      for (std::size_t i = first; i <= last && i < dropped.size(); ++i) dropped[i] = true;
+    const std::size_t count = mesh.triangles.size();
+    std::vector<int> begun(count + 1);  // ranges that begin less those that have ended, as there may be many
+    for (const auto& [first, last] : ranges) {
+      if (first > last || first >= count) continue;
+      ++begun[first];
+      --begun[std::min(last, count - 1) + 1];
+    }
+    int open_ranges = 0;
     TriangleMesh kept;
     std::vector<std::uint32_t> renumbered(mesh.vertices.size(), kUnused);
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-      if (dropped[i]) continue;
+      open_ranges += begun[i];
+      if (open_ranges > 0) continue;
       Triangle triangle = mesh.triangles[i];
       for (std::uint32_t& corner : triangle) {
         if (renumbered[corner] == kUnused) {

@@ -93,7 +93,8 @@ Result<MeshFile> finished(MeshFile file, ReadContext& context) {
     auto indexed = detail::indexed_by_position(object.mesh, context);
     if (!indexed) return tl::unexpected<Error>(indexed.error());
     object.mesh = std::move(*indexed);
-    context.note("every triangle of \"" + object.name + "\" had vertices of its own; equal positions were made one");
+    context.note("every triangle of " + detail::in_quotes(object.name) +
+                 " had vertices of its own; equal positions were made one");
   }
   file.notes = context.take_notes();
   return file;
@@ -157,7 +158,7 @@ Result<MeshFile> read_mesh(std::span<const std::byte> bytes, std::string_view na
   ReadContext context(bytes, name, options, job);
   if (auto admitted = context.admit(0, 0); !admitted) return tl::unexpected<Error>(admitted.error());
   const std::string_view text = context.text();
-  if (text.empty()) return context.unusable("", "the file is empty");
+  if (text.empty()) return context.unusable("", "the file is empty; export the model again");
   Reader reader = reader_by_content(text, bytes);
   if (!reader && (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")))
     return context.unusable("byte 0", "the text is UTF-16; save it as UTF-8 or plain ASCII");

@@ -37,9 +37,11 @@ class ObjReader {
   Result<void> read_face() {
     corners_.clear();
     while (!text_.at_line_end()) {
+      if (auto admitted = context_.admit_corner(corners_.size()); !admitted) return admitted;
       const auto index = text_.integer();
       if (!index)
-        return context_.unusable(text_.place(), "expected a vertex index, found " + in_quotes(text_.peek_word()));
+        return context_.unusable(text_.place(), "expected a vertex index, found " + in_quotes(text_.peek_word()) +
+                                                    "; export the model again");
       text_.skip_word();  // the texture's and the normal's index
       const auto count = static_cast<long long>(mesh_.mesh().vertices.size());
       const long long corner = *index > 0 ? *index - 1 : *index < 0 && *index >= -count ? count + *index : -1;

@@ -67,6 +67,7 @@ class OffReader {
     if (!count || *count < 0) return unexpected("a number of corners");
     corners_.clear();
     for (long long i = 0; i < *count; ++i) {
+      if (auto admitted = context_.admit_corner(corners_.size()); !admitted) return admitted;
       const auto index = text_.integer();
       if (!index) return unexpected("a vertex index");
       if (*index < 0 || *index >= static_cast<long long>(vertices_))

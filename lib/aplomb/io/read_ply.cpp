@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "aplomb/core/printable.h"
 #include "aplomb/io/detail/ply_header.h"
 #include "aplomb/io/detail/polygon.h"
 #include "aplomb/io/detail/readers.h"
@@ -146,7 +147,8 @@ class PlyReader {
   Result<void> read_corners(const PlyElement& element, bool allow_minus_one) {
     const std::size_t indices = std::min(element.find("vertex_indices"), element.find("vertex_index"));
     if (indices == element.properties.size() || !element.properties[indices].count_type)
-      return context_.unusable("", "its elements " + in_quotes(element.name) + " lack a list vertex_indices");
+      return context_.unusable(
+          "", "its elements " + in_quotes(element.name) + " lack a list vertex_indices; export the model again");
     corners_.clear();
     for (std::size_t p = 0; p < element.properties.size(); ++p) {
       const PlyProperty& property = element.properties[p];
@@ -158,6 +160,7 @@ class PlyReader {
       if (!source_.read(*property.count_type, count) || !(count >= 0 && count == std::floor(count)))
         return broken(element);
       for (double i = 0; i < count; ++i) {
+        if (auto admitted = context_.admit_corner(corners_.size()); !admitted) return admitted;
         double index = 0;
         if (!source_.read(property.type, index)) return broken(element);
         const bool separator = allow_minus_one && index == -1;
@@ -205,7 +208,7 @@ class PlyReader {
     return source_.skip(property.type, static_cast<std::size_t>(count));
   }
 
-  std::string place(const PlyElement& element) const { return element.name.substr(0, 40) + " " + std::to_string(at_); }
+  std::string place(const PlyElement& element) const { return printable(element.name, 40) + " " + std::to_string(at_); }
   tl::unexpected<Error> broken(const PlyElement& element) const {
     return context_.unusable(place(element),
                              "the data end here or are no numbers; the file was cut short, save it again");
@@ -244,7 +247,7 @@ Result<MeshFile> read_ply(ReadContext& context) {
     case PlyEncoding::big_endian:
       return PlyReader<BinarySource<true>>(context, *header).read();
   }
-  return context.unusable("", "its encoding is unknown");
+  return context.unusable("", "its encoding is unknown; save it as ASCII");
 }
 
 }  // namespace aplomb::detail

@@ -112,8 +112,10 @@ Result<MeshFile> read_stl_ascii(ReadContext& context) { return AsciiReader(conte
 Result<MeshFile> read_stl_binary(ReadContext& context) {
   const auto bytes = context.bytes();
   if (bytes.size() < kHeader)
-    return context.unusable(
-        "", "neither an ASCII STL (it does not begin with \"solid\") nor a binary one (shorter than its header)");
+    return context.unusable("",
+                            "neither an ASCII STL (it does not begin with \"solid\") nor a binary one (shorter than "
+                            "its header); export the "
+                            "model again");
   const std::size_t count = facet_count(bytes), room = (bytes.size() - kHeader) / kFacet;
   if (count > room)
     return context.unusable("byte 80", "the header promises " + std::to_string(count) +

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
+#include "aplomb/core/printable.h"
 #include "aplomb/job/detail/degrees.h"
 #include "aplomb/job/detail/job_table.h"
 
@@ -209,15 +210,32 @@ class Writer {
   const fs::path& folder_;
 };
 
+/// JSON's own functions call themselves as deep as it nests; a job nests six deep.
+bool nests_too_deep(std::string_view text) {
+  constexpr int most_levels = 100;
+  int level = 0;
+  bool in_string = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '"') in_string = !in_string;
+    else if (in_string) i += text[i] == '\\' ? 1 : 0;
+    else if (text[i] == '[' || text[i] == '{') ++level;
+    else if (text[i] == ']' || text[i] == '}') --level;
+    if (level > most_levels) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 Result<JobFile> parse_job(std::string_view text, const fs::path& folder) {
+  if (nests_too_deep(text))
+    return fail(ErrorCode::invalid_option, "the job nests deeper than 100 levels, which no job needs");
   Json json;
   try {
     json = Json::parse(text);
   } catch (const Json::exception& error) {  // "[json.exception.parse_error.101] parse error at line 1, ..."
     const std::string what = error.what();
-    return fail(ErrorCode::invalid_option, "the job is no JSON:" + what.substr(what.find(']') + 1));
+    return fail(ErrorCode::invalid_option, "the job is no JSON:" + printable(what.substr(what.find(']') + 1), 300));
   }
   if (std::string problem = find_schema_problem(text); !problem.empty())
     return fail(ErrorCode::invalid_option, std::move(problem));

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "aplomb/adapters/valijson/json_schema.h"
+#include "aplomb/core/printable.h"
 #include "aplomb/job/job_file.h"
 
 namespace aplomb {
@@ -100,7 +101,8 @@ std::string problem_of_object(const JobPlace& place) {
   Json keys = Json::array();
   for (const auto& [key, ignored] : allowed.items()) keys.push_back(key);
   for (const auto& [key, ignored] : place.value->items())
-    if (!allowed.contains(key)) return fmt::format("{} has no key '{}'; its keys are {}", name, key, names(keys));
+    if (!allowed.contains(key))
+      return fmt::format("{} has no key '{}'; its keys are {}", name, printable(key), names(keys));
   if (place.schema->contains("required"))
     for (const Json& key : (*place.schema)["required"])
       if (!place.value->contains(key.get<std::string>()))
@@ -117,8 +119,7 @@ std::string find_schema_problem(std::string_view text) {
   const Json root = Json::parse(job_schema()), document = Json::parse(text);
   const JobPlace place = place_of(root, document, violation->path);
   if (place.value->is_object() && place.schema->contains("properties")) return problem_of_object(place);
-  std::string value = place.value->dump(-1, ' ', false, Json::error_handler_t::replace);
-  if (value.size() > 60) value = value.substr(0, 57) + "...";
+  const std::string value = printable(place.value->dump(-1, ' ', false, Json::error_handler_t::replace), 57);
   return fmt::format("{} is {} but must be {}", place.name.empty() ? "the job" : place.name, value,
                      allowed_by(*place.schema));
 }

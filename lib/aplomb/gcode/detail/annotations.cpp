@@ -4,11 +4,13 @@
 #include <charconv>
 #include <utility>
 
+#include "aplomb/core/printable.h"
+
 namespace aplomb::detail {
 namespace {
 
 constexpr std::string_view blanks = " \t\r";
-constexpr std::size_t most_marlin_names = 10'000;
+constexpr std::size_t most_marlin_names = 10'000, most_name_bytes = 1000;
 
 std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(blanks);
@@ -60,8 +62,8 @@ std::optional<std::string_view> Annotations::object() const {
   return *labels_[best_];
 }
 
-void Annotations::enter(Scheme scheme, std::string name) {
-  labels_[scheme] = std::move(name);
+void Annotations::enter(Scheme scheme, std::string_view name) {
+  labels_[scheme] = printable(name, most_name_bytes);
   best_ = std::min(best_, scheme);
 }
 
@@ -103,12 +105,12 @@ bool Annotations::note_height(std::string_view text) {
 bool Annotations::note_object(std::string_view text) {
   if (const auto id = after(text, "start printing object, unique label id:"))
     return enter(comment, "object " + std::string(*id)), true;
-  if (const auto name = after(text, "printing object ")) return enter(comment, std::string(*name)), true;
+  if (const auto name = after(text, "printing object ")) return enter(comment, *name), true;
   if (text.starts_with("stop printing object")) return leave(comment), true;
   const auto name = after(text, "MESH:");
   if (!name) return false;
   if (*name == "NONMESH") leave(mesh);
-  else enter(mesh, std::string(name->substr(name->find_last_of("/\\") + 1)));
+  else enter(mesh, name->substr(name->find_last_of("/\\") + 1));
   return true;
 }
 
@@ -124,7 +126,7 @@ void Annotations::note_slicer(std::string_view text) {
       slicer_ = slicer;
       std::string_view name = text.substr(text.find_first_of("PSOBC"));
       name = trimmed(name.substr(0, name.find(" on ")));
-      slicer_name_ = name.substr(0, 60);
+      slicer_name_ = printable(name, 60);
     }
   if (slicer_ == Slicer::unknown && text.starts_with("FLAVOR:")) slicer_ = Slicer::cura, slicer_name_ = "Cura";
   saw_end_ =
@@ -151,7 +153,7 @@ void Annotations::note_setting(std::string_view text) {
 bool Annotations::note_label_command(std::string_view line) {
   if (const auto rest = after(line, "EXCLUDE_OBJECT_START")) {
     const std::size_t name = rest->find("NAME=");
-    if (name != rest->npos) enter(klipper, std::string(trimmed(rest->substr(name + 5))));
+    if (name != rest->npos) enter(klipper, trimmed(rest->substr(name + 5)));
     return true;
   }
   if (line.starts_with("EXCLUDE_OBJECT_END")) return leave(klipper), true;
@@ -167,7 +169,7 @@ bool Annotations::note_label_command(std::string_view line) {
     leave(marlin);
   } else if (rest->front() == 'A' && marlin_object_ && marlin_names_.size() < most_marlin_names) {
     const std::string_view name = trimmed(rest->substr(1));
-    enter(marlin, marlin_names_[*marlin_object_] = std::string(name));
+    enter(marlin, marlin_names_[*marlin_object_] = std::string(name.substr(0, most_name_bytes)));
   }
   return true;
 }

@@ -55,7 +55,7 @@ class Annotations {
   void note_slicer(std::string_view text);
   void note_setting(std::string_view text);
   bool note_label_command(std::string_view line);
-  void enter(Scheme scheme, std::string name);
+  void enter(Scheme scheme, std::string_view name);
   void leave(Scheme scheme) { labels_[scheme].reset(); }
 
   std::array<std::optional<std::string>, scheme_count> labels_;

@@ -11,13 +11,13 @@
 namespace aplomb::detail {
 namespace {
 
-constexpr std::size_t most_loops = 4096, direction_count = 64;
+constexpr std::size_t most_loops = 4096;
 constexpr double same_layer_mm = 0.01,
                  touching_widths = 2.5;  // corners, and a gap to break it off; skirts keep 2 mm or more
 
-using Reach = std::array<double, direction_count>;  // how far it extends in each direction
+}  // namespace
 
-Reach reach_of(std::span<const Vec2> corners) {
+BrimLoops::Reach BrimLoops::reach_of(std::span<const Vec2> corners) {
   Reach reach;
   reach.fill(-1e300);
   for (std::size_t k = 0; k < direction_count; ++k) {
@@ -29,16 +29,18 @@ Reach reach_of(std::span<const Vec2> corners) {
 }
 
 /// How far one sticks out of the other at most.
-double beyond(const Reach& outer, const Reach& inner) {
+double BrimLoops::beyond(const Reach& outer, const Reach& inner) {
   double most = -1e300;
   for (std::size_t k = 0; k < direction_count; ++k) most = std::max(most, outer[k] - inner[k]);
   return most;
 }
 
-}  // namespace
-
 void BrimLoops::finish() {
-  if (!current_.empty() && loops_.size() < most_loops) loops_.push_back({current_.corners(), width_mm_});
+  if (!current_.empty() && loops_.size() < most_loops) {
+    std::vector<Vec2> corners = current_.corners();
+    const Reach reach_mm = reach_of(corners);
+    loops_.push_back({std::move(corners), width_mm_, reach_mm});
+  }
   current_.clear();
   width_mm_ = 0;
 }
@@ -53,24 +55,18 @@ void BrimLoops::add(Vec3 from_mm, Vec3 to_mm, double width_mm) {
 }
 
 std::vector<Vec2> BrimLoops::around(std::span<const Vec2> contact_corners_mm) const {
-  BrimLoops finished = *this;
-  finished.finish();
-  struct Candidate {
-    const Loop* loop;
-    Reach reach;
-  };
-  std::vector<Candidate> waiting;
-  for (const Loop& loop : finished.loops_) waiting.push_back({&loop, reach_of(loop.hull_mm)});
+  std::vector<const Loop*> waiting;
+  for (const Loop& loop : loops_) waiting.push_back(&loop);
   Reach reach = reach_of(contact_corners_mm);
   std::vector<Vec2> corners(contact_corners_mm.begin(), contact_corners_mm.end());
   bool found = false;
   for (bool grew = true; std::exchange(grew, false);)
-    std::erase_if(waiting, [&](const Candidate& candidate) {
-      const double out_mm = beyond(candidate.reach, reach);
-      if (out_mm > touching_widths * candidate.loop->width_mm) return false;
+    std::erase_if(waiting, [&](const Loop* loop) {
+      const double out_mm = beyond(loop->reach_mm, reach);
+      if (out_mm > touching_widths * loop->width_mm) return false;
       if (out_mm > 0) {
-        for (std::size_t k = 0; k < direction_count; ++k) reach[k] = std::max(reach[k], candidate.reach[k]);
-        corners.insert(corners.end(), candidate.loop->hull_mm.begin(), candidate.loop->hull_mm.end());
+        for (std::size_t k = 0; k < direction_count; ++k) reach[k] = std::max(reach[k], loop->reach_mm[k]);
+        corners.insert(corners.end(), loop->hull_mm.begin(), loop->hull_mm.end());
         grew = found = true;
       }
       return true;

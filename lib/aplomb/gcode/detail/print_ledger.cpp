@@ -112,8 +112,8 @@ PrintedObject PrintLedger::printed(std::size_t index) const {
   printed.box_mm = object.box_mm;
   printed.contact_layer_mm = object.foot.height_mm;
   std::map<unsigned, Moments> by_tool;
-  for (const auto& [key, moments] : moments_)
-    if (key.object == index && is_model(key.feature)) by_tool[key.tool] += moments;
+  for (auto at = moments_.lower_bound({index, {}, 0}); at != moments_.end() && at->first.object == index; ++at)
+    if (is_model(at->first.feature)) by_tool[at->first.tool] += at->second;
   for (const auto& [tool, moments] : by_tool) printed.body.push_back({moments, filaments_[tool].density_g_per_cm3, 0});
   if (object.foot.length_mm > 0) printed.bead_width_mm = object.foot.area_mm2 / object.foot.length_mm;
   SupportPolygon& contact = printed.contact;
@@ -142,7 +142,8 @@ void PrintLedger::close_left_out(bool names_features, PrintedPlate& plate) const
   if (outside_g > 0) plate.left_out.push_back({"outside of labelled objects", outside_g});
 }
 
-void PrintLedger::close(bool names_features, PrintedPlate& plate) const {
+void PrintLedger::close(bool names_features, PrintedPlate& plate) {
+  brims_.finish();
   const auto add = [&plate, this](std::size_t index) {
     PrintedObject object = printed(index);
     if (!object.body.empty() && !object.contact.corners_mm.empty()) plate.objects.push_back(std::move(object));

@@ -42,7 +42,7 @@ class PrintLedger {
   double filament_mm() const { return filament_mm_; }
   /// What the sums come to: objects, and what is left out. Where the program names features, what comes before the
   /// first is no object's.
-  void close(bool names_features, PrintedPlate& plate) const;
+  void close(bool names_features, PrintedPlate& plate);
 
  private:
   struct Foot {

@@ -7,6 +7,8 @@
 namespace aplomb::detail {
 namespace {
 
+constexpr std::size_t kMostElements = 100, kMostProperties = 1000;
+
 std::optional<PlyType> type_named(std::string_view name) {
   constexpr std::pair<std::string_view, PlyType> kNames[] = {
       {"char", PlyType::int8},      {"int8", PlyType::int8},       {"uchar", PlyType::uint8},
@@ -42,7 +44,8 @@ class HeaderReader {
     const char line_end = rest.substr(3, 2) == "\r\n" || rest[3] == '\n' ? '\n' : '\r';
     for (;;) {
       const auto end = rest.find(line_end);
-      if (end == rest.npos) return context_.unusable(place(), "the header has no end_header; the file was cut short");
+      if (end == rest.npos)
+        return context_.unusable(place(), "the header has no end_header; it was cut short, save the file again");
       const auto words = words_of(rest.substr(0, end));
       rest.remove_prefix(end + 1);
       ++line_;
@@ -80,14 +83,18 @@ class HeaderReader {
     for (const PlyElement& other : header_.elements)
       if (other.name == element.name)
         return context_.unusable(place(), "there are two elements " + in_quotes(words[1]) + "; export the model again");
+    if (header_.elements.size() == kMostElements)
+      return context_.unusable(place(), "the header has more than 100 elements; export the model again");
     header_.elements.push_back(std::move(element));
     return {};
   }
 
   Result<void> read_property(const std::vector<std::string_view>& words) {
-    if (header_.elements.empty()) return context_.unusable(place(), "a property stands before any element");
+    if (header_.elements.empty())
+      return context_.unusable(place(), "a property stands before any element; export the model again");
     const bool list = words[1] == "list";
-    if (list && words.size() < 5) return context_.unusable(place(), "a list property lacks its types or its name");
+    if (list && words.size() < 5)
+      return context_.unusable(place(), "a list property lacks its types or its name; export the model again");
     const auto count_type = list ? type_named(words[2]) : std::nullopt;
     const auto type = type_named(list ? words[3] : words[1]);
     const bool bad_count = list && (!count_type || *count_type >= PlyType::float32);
@@ -96,6 +103,8 @@ class HeaderReader {
                                                         : list    ? 3
                                                                   : 1]) +
                                             " is not a type that can stand here; export the model again");
+    if (header_.elements.back().properties.size() == kMostProperties)
+      return context_.unusable(place(), "an element has more than 1000 properties; export the model again");
     header_.elements.back().properties.push_back({std::string(list ? words[4] : words[2]), *type, count_type});
     return {};
   }

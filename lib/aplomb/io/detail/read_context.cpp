@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "aplomb/core/printable.h"
 #include "aplomb/io/detail/text_cursor.h"
 
 namespace aplomb::detail {
@@ -47,6 +48,11 @@ Result<void> ReadContext::admit(std::size_t vertices, std::size_t triangles, std
   return {};
 }
 
+Result<void> ReadContext::admit_polygon(std::size_t corners) const {
+  constexpr std::size_t kBytesEach = 48;  // a list that doubles, points and two rings
+  return admit(0, corners, kBytesEach * corners);
+}
+
 void ReadContext::note(std::string sentence) {
   constexpr std::size_t kEnough = 100;
   if (notes_.size() < kEnough && std::find(notes_.begin(), notes_.end(), sentence) == notes_.end())
@@ -81,10 +87,6 @@ bool GrowingMesh::grow_triangles() {
   return true;
 }
 
-std::string in_quotes(std::string_view text) {
-  std::string shown = "\"";
-  for (const char c : text.substr(0, 80)) shown += static_cast<unsigned char>(c) < 32 || c == 127 ? '?' : c;
-  return shown + (text.size() > 80 ? "...\"" : "\"");
-}
+std::string in_quotes(std::string_view text) { return '"' + printable(text) + '"'; }
 
 }  // namespace aplomb::detail

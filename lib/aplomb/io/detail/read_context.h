@@ -32,6 +32,12 @@ class ReadContext {
   /// over_budget unless this many vertices and triangles, with `work_bytes` and the file itself, fit the budget.
   Result<void> admit(std::size_t vertices, std::size_t triangles, std::size_t work_bytes = 0) const;
 
+  /// Before a polygon gets another corner: over_budget where it has so many that what cuts it would not fit.
+  Result<void> admit_corner(std::size_t corners_so_far) const {
+    constexpr std::size_t kUnasked = 0xffff;  // is asked for once in so many
+    return (corners_so_far & kUnasked) == kUnasked ? admit_polygon(corners_so_far) : Result<void>();
+  }
+
   /// What a reader holds besides the file and the mesh at hand; counts in every later admit().
   void set_work_bytes(std::size_t work_bytes) { work_bytes_ = work_bytes; }
   std::size_t work_bytes() const { return work_bytes_; }
@@ -43,6 +49,8 @@ class ReadContext {
   std::vector<std::string> take_notes() { return std::move(notes_); }
 
  private:
+  Result<void> admit_polygon(std::size_t corners) const;
+
   std::span<const std::byte> bytes_;
   std::string name_;
   const ReadOptions& options_;

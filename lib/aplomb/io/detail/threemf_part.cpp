@@ -44,6 +44,10 @@ bool keeps_the_shape(std::string_view name_space) {
   return false;
 }
 
+constexpr std::size_t kMostPath = 1000, kMostExtensions = 100;
+// Of an object or a reference: its node in a map, and what a vector that doubles keeps free.
+constexpr std::size_t kObjectBytes = sizeof(ThreemfObject) + 80, kReferenceBytes = 3 * sizeof(ThreemfReference);
+
 class PartReader {
  public:
   PartReader(ReadContext& context, std::string_view part) : context_(context), part_(part) {}
@@ -73,9 +77,17 @@ class PartReader {
     return name.size() == prefix_.size() + local.size() && name.starts_with(prefix_) && name.ends_with(local);
   }
 
+  /// over_budget unless so much more fits, besides the XML's tree; counts from then on.
+  Result<void> hold(std::size_t bytes) {
+    context_.set_work_bytes(context_.work_bytes() + bytes);
+    return context_.admit(0, 0);
+  }
+
   Result<void> check_extensions(const pugi::xml_node& model) {
     TextCursor prefixes(attribute(model, "requiredextensions"));
+    std::size_t count = 0;
     for (prefixes.skip_to_word(); !prefixes.at_end(); prefixes.skip_to_word()) {
+      if (++count > kMostExtensions) return unusable("it requires more than 100 extensions");
       const std::string prefix(prefixes.word());
       const std::string_view name_space = model.attribute(("xmlns:" + prefix).c_str()).value();
       if (!keeps_the_shape(name_space))
@@ -91,6 +103,7 @@ class PartReader {
       const auto id = index_in(attribute(node, "id"));
       if (!id) return unusable("an object has no usable id");
       object_ = ", object " + std::to_string(*id);
+      if (auto held = hold(kObjectBytes); !held) return held;
       const auto [at, is_new] = result_.objects.try_emplace(*id);
       if (!is_new) return unusable("another object has the same id");
       if (auto done = read_object(node, at->second); !done) return done;
@@ -184,11 +197,13 @@ class PartReader {
                                std::vector<ThreemfReference>& out) {
     for (const pugi::xml_node& node : list) {
       if (!is(node, element)) continue;
+      if (auto held = hold(kReferenceBytes); !held) return held;
       ThreemfReference reference;
       const auto id = index_in(attribute(node, "objectid"));
       if (!id) return unusable("a " + std::string(element) + " has no usable objectid");
       reference.id = *id;
       reference.path = attribute(node, "path");
+      if (reference.path.size() > kMostPath) return unusable("a " + std::string(element) + " has too long a path");
       reference.printable = attribute(node, "printable") != "0";
       if (const std::string_view transform = attribute(node, "transform"); !transform.empty())
         if (auto done = read_transform(transform, reference.transform); !done) return done;
@@ -232,6 +247,19 @@ class PartReader {
 
 }  // namespace
 
+namespace {
+
+/// What the tree may take at most: two nodes for a '<', an attribute for a '=', and the text once more, should it not
+/// be UTF-8.
+std::size_t tree_bytes_of(const std::string& xml) {
+  const auto tags = std::count(xml.begin(), xml.end(), '<'), attributes = std::count(xml.begin(), xml.end(), '=');
+  const bool is_converted = xml.find('\0') != xml.npos;
+  return static_cast<std::size_t>(tags) * 128 + static_cast<std::size_t>(attributes) * 48 +
+         (is_converted ? 2 * xml.size() : 0);
+}
+
+}  // namespace
+
 std::string_view local_name(std::string_view name) { return name.substr(name.find(':') + 1); }
 
 std::string_view attribute(const pugi::xml_node& node, std::string_view local) {
@@ -243,10 +271,7 @@ std::string_view attribute(const pugi::xml_node& node, std::string_view local) {
 Result<void> parse_xml(const ReadContext& context, std::string_view name, std::string& xml,
                        pugi::xml_document& document) {
   const std::string place = "part " + in_quotes(name);
-  // What the tree may take at most: two nodes for a '<', an attribute for a '='.
-  const auto tags = std::count(xml.begin(), xml.end(), '<'), attributes = std::count(xml.begin(), xml.end(), '=');
-  const auto tree_bytes = static_cast<std::size_t>(tags) * 128 + static_cast<std::size_t>(attributes) * 48;
-  if (auto admitted = context.admit(0, 0, tree_bytes); !admitted) return admitted;
+  if (auto admitted = context.admit(0, 0, tree_bytes_of(xml)); !admitted) return admitted;
   const auto parsed = document.load_buffer_inplace(
       xml.data(), xml.size(), pugi::parse_escapes | pugi::parse_wconv_attribute | pugi::parse_doctype);
   for (const pugi::xml_node& node : document)
@@ -261,8 +286,12 @@ Result<void> parse_xml(const ReadContext& context, std::string_view name, std::s
 
 Result<ThreemfPart> read_threemf_part(ReadContext& context, std::string_view name, std::string xml) {
   pugi::xml_document document;
+  const std::size_t tree_bytes = tree_bytes_of(xml);
   if (auto parsed = parse_xml(context, name, xml, document); !parsed) return tl::unexpected<Error>(parsed.error());
-  return PartReader(context, name).read(document.document_element());
+  context.set_work_bytes(context.work_bytes() + tree_bytes);
+  auto part = PartReader(context, name).read(document.document_element());
+  context.set_work_bytes(context.work_bytes() - tree_bytes - xml.size());  // zip counted the text
+  return part;
 }
 
 }  // namespace aplomb::detail

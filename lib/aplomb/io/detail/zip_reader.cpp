@@ -3,6 +3,7 @@
 #include <zip.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace aplomb::detail {
 namespace {
@@ -10,7 +11,34 @@ namespace {
 constexpr std::size_t kChunk = std::size_t{1} << 20;
 // Model text shrinks 5 to 50 times; a bomb a thousand times.
 constexpr double kMostExpansion = 200;
-constexpr std::size_t kSmallPart = std::size_t{64} << 20;
+constexpr double kSmallPart = 64 << 20;
+
+constexpr std::size_t kMostDirectory = std::size_t{16} << 20;
+
+std::uint64_t little_endian(std::string_view bytes, std::size_t count) {
+  std::uint64_t value = 0;
+  for (std::size_t i = std::min(count, bytes.size()); i-- > 0;)
+    value = value << 8 | static_cast<unsigned char>(bytes[i]);
+  return value;
+}
+
+/// The largest central directory that any end record among the last bytes claims (APPNOTE 4.3.14 to 4.3.16): libzip
+/// takes some 300 bytes for each of its entries as soon as it opens it.
+std::uint64_t directory_bytes(std::string_view text) {
+  constexpr std::size_t kSearched = 70'000;  // a record, and its comment of at most 65,535
+  std::uint64_t most = 0;
+  for (std::size_t at = text.size() - std::min(text.size(), kSearched); (at = text.find("PK\5\6", at)) != text.npos;
+       ++at) {
+    std::uint64_t size = little_endian(text.substr(std::min(text.size(), at + 12)), 4);
+    if (size == 0xffffffff && at >= 20) {
+      const std::uint64_t record = little_endian(text.substr(at - 20 + 8), 8);
+      size =
+          record < text.size() ? little_endian(text.substr(std::min<std::size_t>(text.size(), record + 40)), 8) : size;
+    }
+    most = std::max(most, size);
+  }
+  return most;
+}
 
 bool is_symbolic_link(zip_t* archive, zip_uint64_t index) {
   zip_uint8_t system = 0;
@@ -32,6 +60,8 @@ std::string ZipReader::key_of(std::string_view name) {
 }
 
 Result<ZipReader> ZipReader::open(ReadContext& context) {
+  if (directory_bytes(context.text()) > kMostDirectory)
+    return context.unusable("", "its zip claims a directory of more than 16 MB, as no 3MF has; export the model again");
   ZipReader reader(context);
   zip_error_t error;
   zip_error_init(&error);
@@ -70,11 +100,15 @@ Result<std::string> ZipReader::read(std::string_view name) {
     return context_->unusable(place, "it is compressed by a method that 3MF does not allow; export the model again");
   if (is_symbolic_link(archive_.get(), entry->second))
     return context_->unusable(place, "it is a symbolic link, which a 3MF cannot hold; export the model again");
-  if (status.size > kSmallPart &&
-      static_cast<double>(status.size) > kMostExpansion * static_cast<double>(status.comp_size))
-    return fail(ErrorCode::over_budget, context_->name() + ", " + place + ": it expands " +
-                                            std::to_string(status.size / std::max<zip_uint64_t>(1, status.comp_size)) +
-                                            "-fold, as no model does; export it again");
+  // Of each part, and of all together: parts may share the bytes that they unpack from.
+  unpacked_ += static_cast<double>(status.size);
+  for (const auto& [size, packed] : {std::pair{static_cast<double>(status.size), status.comp_size},
+                                     {unpacked_, static_cast<zip_uint64_t>(context_->bytes().size())}})
+    if (const double fold = size / static_cast<double>(std::max<zip_uint64_t>(1, packed));
+        size > kSmallPart && fold > kMostExpansion)
+      return fail(ErrorCode::over_budget, context_->name() + ", " + place + ": it expands " +
+                                              std::to_string(static_cast<long long>(fold)) +
+                                              "-fold, as no model does; export it again");
   if (auto admitted = context_->admit(0, 0, status.size); !admitted) return tl::unexpected<Error>(admitted.error());
   return inflate(entry->second, status.size, place);
 }

@@ -42,6 +42,7 @@ class ZipReader {
   ReadContext* context_;
   std::unique_ptr<::zip, Closer> archive_;
   std::map<std::string, std::uint64_t> entries_;
+  double unpacked_ = 0;  // bytes, of all parts so far
 };
 
 }  // namespace aplomb::detail

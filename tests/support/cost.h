@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+/// What a piece of work costs, measured in a process of its own.
+namespace aplomb::test {
+
+struct Cost {
+  bool ended = false;          ///< false: it crashed
+  double seconds = 0;          ///< of CPU
+  std::size_t peak_bytes = 0;  ///< of memory, on top of what the process held before
+};
+
+Cost cost_of(const std::function<void()>& work);
+
+/// Whether memory and time are those of a build for use: sanitizers take several times of both.
+constexpr bool is_sanitized() {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  return true;
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+  return true;
+#endif
+#endif
+  return false;
+}
+
+}  // namespace aplomb::test
