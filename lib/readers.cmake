@@ -9,10 +9,10 @@ function(add_readers name)
   endforeach()
   foreach(source balance/hanging_pose balance/hanging_rows balance/pose balance/poses balance/stability balance/hanging balance/pedestal balance/standing balance/standing_rows
                  balance/support_polygon balance/detail/contact_surface balance/detail/convex_hull_2d balance/detail/enclosing_circle mesh/placement mesh/triangle_mesh mesh/repair_options mesh/mass_properties
-                 printability/judge_options printability/rules adapters/valijson/json_schema)
+                 inserts/insert printability/judge_options printability/rules adapters/valijson/json_schema)
     list(APPEND sources ${lib}/aplomb/${source}.cpp)
   endforeach()
-  list(FILTER sources EXCLUDE REGEX "predict_print|core/threads")
+  list(FILTER sources EXCLUDE REGEX "fdm/(predict_print|layered_print|ballast)|core/threads")
   file(READ ${lib}/aplomb/job/job.schema.json APLOMB_JOB_SCHEMA)
   configure_file(${lib}/aplomb/job/job_schema.cpp.in ${CMAKE_CURRENT_BINARY_DIR}/job_schema.cpp @ONLY)
   add_library(${name} OBJECT ${sources} ${CMAKE_CURRENT_BINARY_DIR}/job_schema.cpp)
