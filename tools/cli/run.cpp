@@ -103,8 +103,11 @@ Result<Report> measure_and_write(const StandRun& made, const Input& input, const
                                  const StandOptions& options, const Job& job) {
   const std::filesystem::path& output = a.job.output;
   const MeshFormat format = output == "-" ? MeshFormat::stl : *format_of(output);
-  WriteOptions write{.name = output.stem().string(), .on_temp_file = {}, .parts = parts_of(made.report)};
-  if (made.ballast && format == MeshFormat::three_mf) write.modifier = modifier_of(made, input, a, options);
+  WriteOptions write{.name = output.stem().string(), .on_temp_file = {}};
+  if (format == MeshFormat::three_mf) {
+    write.parts = parts_of(made.report);
+    if (made.ballast) write.modifier = modifier_of(made, input, a, options);
+  }
   auto bytes = encode_mesh(made.shell->mesh, format, write, job.part(0, 0.4));
   if (!bytes) return tl::unexpected(bytes.error());
   const auto back =
@@ -119,7 +122,7 @@ Result<Report> measure_and_write(const StandRun& made, const Input& input, const
   if (const auto written = write_file_atomically(output, *bytes, remember_temp_file); !written)
     return tl::unexpected(written.error());
   if (made.ballast && !a.job.modifier.empty()) {
-    const WriteOptions named{a.job.modifier.stem().string(), remember_temp_file};
+    const WriteOptions named{.name = a.job.modifier.stem().string(), .on_temp_file = remember_temp_file};
     const auto volume = ballast_volume(*made.ballast, input.solid.box());
     if (const auto written = write_mesh(a.job.modifier, volume, named); !written)
       return tl::unexpected(written.error());
