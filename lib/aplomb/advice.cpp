@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "aplomb/balance/attachments.h"
+
 #include "aplomb/inserted.h"
 
 namespace aplomb {
@@ -31,6 +33,15 @@ std::string half_wall_text(double t, const JointProblem& joint, const StandOptio
 }
 
 }  // namespace
+
+void note_loose_attachments(Report& report, const TriangleMesh& mesh) {
+  for (const PoseReport& entry : report.poses)
+    if (const HangingPose* hanging = entry.pose.hanging())
+      for (const auto& [at, distance] : loose_attachments(mesh, *hanging))
+        report.hints.push_back(
+            fmt::format("the point ({:.6g}, {:.6g}, {:.6g}) mm to hang from is {:.3g} mm off the model", at.x, at.y,
+                        at.z, distance));
+}
 
 void add_advice(Report& report, const Input& input, const JointProblem& joint, const StandOptions& options,
                 const Job& job) {

@@ -14,4 +14,7 @@ namespace aplomb {
 void add_advice(Report& report, const Input& input, const JointProblem& joint, const StandOptions& options,
                 const Job& job);
 
+/// Adds a hint for every point to hang from that is off the model.
+void note_loose_attachments(Report& report, const TriangleMesh& mesh);
+
 }  // namespace aplomb

@@ -30,6 +30,14 @@ Result<double> shortfall_t(const Input& input, const Ballast& ballast, const Sta
   return -least;
 }
 
+/// The layers with the low density where ballast is not.
+Result<LayeredPrint> with_low_infill(const LayeredPrint& layers, const SolidMesh& solid, const StandOptions& options,
+                                     const Job& job) {
+  const PrintProfile low = profile_with_ballast(options);
+  if (auto same = layers.with_infill(low.infill_ratio)) return std::move(*same);
+  return LayeredPrint::make(printed_solid(solid), low, job);
+}
+
 }  // namespace
 
 bool tries_ballast(const StandOptions& o) {
@@ -45,12 +53,17 @@ PrintProfile profile_with_ballast(const StandOptions& options) {
   return profile;
 }
 
-Result<Ballast> attempt_ballast(const Input& input, const JointProblem& joint, const StandOptions& options,
-                                StageClock& clock, const Job& job) {
-  assert(options.profile);
-  const auto print = LayeredPrint::make(printed_solid(input.solid), profile_with_ballast(options), job.part(0, 0.5));
+Result<std::optional<LayeredPrint>> layers_of(const SolidMesh& solid, const StandOptions& options, const Job& job) {
+  if (!options.profile) return std::optional<LayeredPrint>();
+  auto layers = LayeredPrint::make(printed_solid(solid), *options.profile, job);
+  if (!layers) return tl::unexpected(layers.error());
+  return std::optional(std::move(*layers));
+}
+
+Result<Ballast> attempt_ballast(const Input& input, const LayeredPrint& layers, const JointProblem& joint,
+                                const StandOptions& options, StageClock& clock, const Job& job) {
+  const auto print = with_low_infill(layers, input.solid, options, job.part(0, 0.5));
   if (!print) return tl::unexpected(print.error());
-  clock.lap("slice");
   BallastOptions asked{options.aim, joint.required_t, options.ballast_high_ratio};
   for (int round = 1;; ++round) {
     const Job part = job.part(0.5 + 0.5 * (round - 1) / most_rounds, 0.5 + 0.5 * round / most_rounds);
@@ -90,13 +103,13 @@ BallastFigures ballast_figures(const Ballast& ballast, const JointProblem& joint
           static_cast<std::size_t>(ballast.planes)};
 }
 
-Result<std::vector<Region>> body_of(const SolidMesh& solid, const Moments& moments, const StandOptions& options,
-                                    const std::optional<Ballast>& ballast, const Job& job) {
-  if (!options.profile) return std::vector{Region{moments, options.density_g_per_cm3, 0.02}};
-  const PrintProfile profile = ballast ? profile_with_ballast(options) : *options.profile;
-  const auto layers = LayeredPrint::make(printed_solid(solid), profile, job.part(0, 0.7));
-  if (!layers) return tl::unexpected(layers.error());
-  const auto print = layers->fill(ballast ? std::optional(ballast->infill) : std::nullopt, job.part(0.7, 1));
+Result<std::vector<Region>> body_of(const SolidMesh& solid, const std::optional<LayeredPrint>& layers,
+                                    const StandOptions& options, const std::optional<Ballast>& ballast,
+                                    const Job& job) {
+  if (!layers) return std::vector{Region{solid.moments(), options.density_g_per_cm3, 0.02}};
+  const auto low = ballast ? with_low_infill(*layers, solid, options, job.part(0, 0.5)) : *layers;
+  if (!low) return tl::unexpected(low.error());
+  const auto print = low->fill(ballast ? std::optional(ballast->infill) : std::nullopt, job.part(0.5, 1));
   if (!print) return tl::unexpected(print.error());
   auto body = printed_body(*print, options);
   if (body.empty()) return fail(ErrorCode::unusable_input, "with this profile nothing of the model is printed");

@@ -10,7 +10,6 @@
 
 #include "aplomb/advice.h"
 #include "aplomb/attempt.h"
-#include "aplomb/balance/attachments.h"
 #include "aplomb/ballasted.h"
 #include "aplomb/holes/drill.h"
 #include "aplomb/inserted.h"
@@ -40,17 +39,11 @@ Result<std::vector<PoseMeasure>> measure_poses(const TriangleMesh& outer, const 
   return measures;
 }
 
-void note_loose_attachments(const TriangleMesh& mesh, const std::vector<Pose>& poses, std::vector<std::string>& notes) {
-  for (const Pose& pose : poses)
-    if (const HangingPose* hanging = pose.hanging())
-      for (const auto& [at, distance] : loose_attachments(mesh, *hanging))
-        notes.push_back(fmt::format("the point ({:.6g}, {:.6g}, {:.6g}) mm to hang from is {:.3g} mm off the model",
-                                    at.x, at.y, at.z, distance));
-}
-
 /// The report of the solid as it came.
-Result<Report> begin_report(const Input& input, const StandOptions& options, const Job& job) {
-  const auto body = body_of(input.solid, input.moments, options, std::nullopt, job);
+Result<Report> begin_report(const Input& input, const std::optional<LayeredPrint>& layers, const StandOptions& options,
+                            const Job& job) {
+  const auto body = layers ? body_of(input.solid, layers, options, std::nullopt, job)
+                           : uniform_body(input.moments, options);  // of triangles that cross: as repair left them
   if (!body) return tl::unexpected(body.error());
   auto before = measure_poses(input.solid.mesh(), *body, options);
   if (!before) return tl::unexpected(before.error());
@@ -60,7 +53,7 @@ Result<Report> begin_report(const Input& input, const StandOptions& options, con
   set_before(report, std::move(*before), kind_of(options));
   report.repair = input.repair.steps;
   report.hints = input.notes;
-  note_loose_attachments(input.solid.mesh(), options.poses, report.hints);
+  note_loose_attachments(report, input.solid.mesh());
   report.stage_seconds = input.stage_seconds;
   report.mesh =
       MeshFigures{input.repair.outer_unchanged, true, 0, input.solid.voids(), input.solid.mesh().triangles.size()};
@@ -128,6 +121,8 @@ JudgeOptions judge_options(const StandOptions& options) {
 /// Between a finding about the shell and one about the model as it came; more where it was bent.
 constexpr double same_place_mm = 2;
 
+bool is_changed(const StandRun& run) { return run.carving || run.report.deformation || run.report.inserts; }
+
 /// Judges what was written; where it fails, the model as it came too, to tell what carving did from what was there.
 Result<Judgement> judge_output(const TriangleMesh& written, const Input& input, const StandRun& run,
                                const StandOptions& options, const Job& job) {
@@ -135,9 +130,8 @@ Result<Judgement> judge_output(const TriangleMesh& written, const Input& input, 
   judging.inserts = run.inserts;
   auto judgement = judge(written, judging, &run.shell->mesh, job.part(0, 0.5));
   if (!judgement || judgement->new_failures().empty()) return judgement;
-  const bool is_changed = run.carving || run.report.deformation || run.report.inserts;
   judging.inserts.clear();
-  const auto before = is_changed ? judge(input.solid.mesh(), judging, nullptr, job.part(0.5, 1)) : judgement;
+  const auto before = is_changed(run) ? judge(input.solid.mesh(), judging, nullptr, job.part(0.5, 1)) : judgement;
   if (!before) return tl::unexpected(before.error());
   const double moved_mm = run.report.deformation ? run.report.deformation->max_mm : 0;
   mark_inherited(*judgement, *before, same_place_mm + moved_mm);
@@ -205,9 +199,12 @@ Result<StandRun> finish(StandRun run, const Input& shaped, std::optional<Attempt
 
 Result<StandRun> stand(const Input& input, const StandOptions& options, const Job& job, const StageViewer& view) {
   assert(find_problem(options).empty());
-  auto begun = begin_report(input, options, job.part(0, 0.05));
+  auto layers = layers_of(input.solid, options, job.part(0, 0.04));
+  if (!layers) return tl::unexpected(layers.error());
+  auto begun = begin_report(input, *layers, options, job.part(0.04, 0.05));
   if (!begun) return tl::unexpected(begun.error());
   StandRun run;
+  run.layers = std::move(*layers);
   run.report = std::move(*begun);
   Report& report = run.report;
   StageClock clock(report.stage_seconds);
@@ -225,7 +222,7 @@ Result<StandRun> stand(const Input& input, const StandOptions& options, const Jo
     auto posed = joint_problem(input.solid.mesh(), options.poses, kind_of(options));
     if (!posed) return tl::unexpected(posed.error());
     joint = std::move(*posed);
-    auto tried = attempt_ballast(input, *joint, options, clock, job.part(0.05, 0.2));
+    auto tried = attempt_ballast(input, *run.layers, *joint, options, clock, job.part(0.05, 0.2));
     if (!tried) return tl::unexpected(tried.error());
     if (tried->reaches || options.ballast == Ballasting::only)
       return finish_ballast(std::move(run), input, *tried, *joint, options);
@@ -270,7 +267,9 @@ Result<std::vector<TriangleMesh>> hole_plugs(const StandRun& run, const Job& job
 Result<Report> check(const Input& input, const StandOptions& options, const Job& job) {
   assert(find_problem(options).empty());
   if (!job.report(0, "check")) return cancelled();
-  auto report = begin_report(input, options, job);
+  const auto layers = layers_of(input.solid, options, job.part(0, 0.9));
+  if (!layers) return tl::unexpected(layers.error());
+  auto report = begin_report(input, *layers, options, job.part(0.9, 1));
   if (report) report->outcome = all_hold(*report) ? Outcome::already_stands : Outcome::falls;
   return report;
 }
@@ -295,7 +294,11 @@ Result<Report> measure_output(const TriangleMesh& written, const Input& input, c
   if (!solid->solid) return fail(ErrorCode::internal, "the shell is no solid: " + describe(solid->defects));
   figures.voids = solid->solid->voids();
   report.mesh = figures;
-  const auto body = body_of(*solid->solid, solid->solid->moments(), options, run.ballast, job.part(0.4, 0.5));
+  const bool is_as_it_came = !is_changed(run) && figures.outer_unchanged;
+  const auto layers = is_as_it_came ? Result<std::optional<LayeredPrint>>(run.layers)
+                                    : layers_of(*solid->solid, options, job.part(0.4, 0.48));
+  if (!layers) return tl::unexpected(layers.error());
+  const auto body = body_of(*solid->solid, *layers, options, run.ballast, job.part(0.48, 0.5));
   if (!body) return tl::unexpected(body.error());
   auto after = measure_poses(written, with_regions(*body, run.inserts), options);
   if (!after) return tl::unexpected(after.error());

@@ -14,13 +14,14 @@
 namespace aplomb {
 
 struct StandRun {
-  std::optional<Shell> shell;      ///< what to print; none when it cannot stand and no best effort was asked for
-  std::optional<Carving> carving;  ///< none when it stands already
-  std::vector<Hole> holes;         ///< escape holes that were cut through the shell
-  std::vector<Region> inserts;     ///< that lie in pockets of the shell: see report.inserts
-  TriangleMesh undrilled;          ///< the outside before the holes were cut; empty without holes
-  std::optional<Ballast> ballast;  ///< where mass was moved by infill; then `shell` is the solid as it came
-  Report report;                   ///< `after` and `mesh` are to be measured on what is written: see measure_output()
+  std::optional<Shell> shell;          ///< what to print; none when it cannot stand and no best effort was asked for
+  std::optional<Carving> carving;      ///< none when it stands already
+  std::vector<Hole> holes;             ///< escape holes that were cut through the shell
+  std::vector<Region> inserts;         ///< that lie in pockets of the shell: see report.inserts
+  TriangleMesh undrilled;              ///< the outside before the holes were cut; empty without holes
+  std::optional<LayeredPrint> layers;  ///< of the solid as it came, where there is a profile
+  std::optional<Ballast> ballast;      ///< where mass was moved by infill; then `shell` is the solid as it came
+  Report report;  ///< `after` and `mesh` are to be measured on what is written: see measure_output()
 };
 
 /// Makes a solid hold every pose (stand, or hang) by carving, or by infill (tries_ballast()).

@@ -123,5 +123,17 @@ TEST_F(CommandLine, CtrlCEndsWithinTwoHundredMillisecondsWithFourAndNoFile) {
     EXPECT_EQ(entry.path().filename().string().find("out"), std::string::npos);
 }
 
+TEST_F(CommandLine, EndsWithFiveAndWithoutOutputWhereTheTimeOrTheTrianglesAreOverWhatMayBe) {
+  const std::string stand = "stand " + toppling() + " --tip 6deg -o " + path("out.3mf");
+  EXPECT_EQ(run(stand + " --time 20ms"), 5);
+  EXPECT_NE(text_of("stderr").find("the time is over (--time)"), std::string::npos) << text_of("stderr");
+  EXPECT_EQ(run(stand + " --max-triangles 11"), 5);  // of 12
+  EXPECT_FALSE(fs::exists(path("out.3mf")));
+  EXPECT_EQ(run(stand + " --time 10min --max-triangles 12"), 0) << text_of("stderr");
+  EXPECT_TRUE(fs::exists(path("out.3mf")));
+  EXPECT_EQ(run(stand + " --time 0s"), 1);
+  EXPECT_EQ(run(stand + " --time soon"), 1);
+}
+
 }  // namespace
 }  // namespace aplomb

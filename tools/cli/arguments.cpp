@@ -37,6 +37,7 @@ void add_job_flags(CLI::App* app, JobOverrides& overrides, Arguments& a) {
   app->add_option("--html", overrides.html, "instead of the job's");
   app->add_option("--picture", overrides.picture, "instead of the job's");
   app->add_option("--threads", overrides.threads, "instead of the job's")->check(CLI::NonNegativeNumber);
+  add_time_flag(app, a);
   add_progress_flag(app, a);
   app->add_flag("-q,--quiet", a.quiet, "no progress and no summary");
 }

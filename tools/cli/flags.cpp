@@ -153,6 +153,16 @@ void add_profile_flag(CLI::App* app, Arguments& a) {
       "measure it as it is sliced: an .ini of PrusaSlicer, its G-code, or Cura's settings as JSON or lines");
 }
 
+void add_time_flag(CLI::App* app, Arguments& a) {
+  add_quantity(app, "--time", a.time_s, durations, "end after this time, such as 90s or 5min, with exit code 5")
+      ->check(CLI::Validator(
+          [](std::string& text) {
+            const auto seconds = parse_quantity(text, durations);
+            return seconds && *seconds > 0 && *seconds <= 1e7 ? std::string() : "must be a time above 0";
+          },
+          ""));
+}
+
 void add_run_flags(CLI::App* app, Arguments& a) {
   add_choice(
       app, "--material", {"pla", "petg", "abs", "asa", "tpu", "resin", "pa12"},
@@ -163,6 +173,8 @@ void add_run_flags(CLI::App* app, Arguments& a) {
   app->add_option("--threads", a.job.threads, "at most this many (default: one per core)")
       ->check(CLI::NonNegativeNumber);
   add_quantity(app, "--memory", a.job.options.memory_bytes, memories, "memory budget, such as 2GB (default 4GB)");
+  app->add_option("--max-triangles", a.job.input.read.max_triangles, "refuse files of more (default 50 million)");
+  add_time_flag(app, a);
   add_progress_flag(app, a);
   app->add_flag("-q,--quiet", a.quiet, "no progress and no summary");
 }

@@ -30,6 +30,7 @@ void add_judging_flags(CLI::App* app, Arguments& a);
 /// How progress is told.
 /// Of infill that is denser on one side.
 void add_ballast_flags(CLI::App* app, Arguments& a);
+void add_time_flag(CLI::App* app, Arguments& a);
 void add_progress_flag(CLI::App* app, Arguments& a);
 
 /// G-code, what is expected of it, and its filaments.

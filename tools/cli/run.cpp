@@ -253,6 +253,8 @@ Result<void> save_job(const Arguments& a) {
 }  // namespace
 
 int run(const Arguments& a) {
+  if (const auto time_s = a.time_s ? a.time_s : a.job.time_s; time_s)
+    limit_time(*time_s, exit_code(Ending::over_budget));
   if (a.command == Command::verify) {
     ProgressLine progress(!a.quiet, a.is_progress_json);
     return run_verify(a, progress.job());

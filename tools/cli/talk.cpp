@@ -11,7 +11,12 @@
 #include "run.h"
 
 namespace aplomb::cli {
+
 int report_error(const Error& error) {
+  if (error.code == ErrorCode::cancelled && is_over_time()) {
+    fmt::print(stderr, "aplomb: the time is over (--time)\n");
+    return exit_code(Ending::over_budget);
+  }
   fmt::print(stderr, "aplomb: {}\n", error.message);
   return exit_code(ending_of(error));
 }

@@ -44,6 +44,7 @@ void add_verify_flags(CLI::App* app, Arguments& a) {
   add_list(app, "--diameter", verify.gcode.diameters_mm,
            "of the filament in mm, by tool (default: as the G-code says, else 1.75)");
   app->add_option("--report", verify.report, "write what was measured as JSON; - is standard output");
+  add_time_flag(app, a);
   add_progress_flag(app, a);
   app->add_flag("-q,--quiet", a.quiet, "no progress and no summary");
 }

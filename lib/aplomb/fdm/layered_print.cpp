@@ -202,6 +202,15 @@ Result<LayeredPrint> LayeredPrint::make(const PrintedSolid& printed, const Print
   return print;
 }
 
+std::optional<LayeredPrint> LayeredPrint::with_infill(double infill_ratio) const {
+  const auto is_sparse = [](double ratio) { return ratio > 0 && ratio < 1; };
+  if (infill_ratio == profile_.infill_ratio) return *this;
+  if (!is_sparse(infill_ratio) || !is_sparse(profile_.infill_ratio)) return std::nullopt;
+  LayeredPrint other = *this;
+  other.profile_.infill_ratio = infill_ratio;
+  return other;  // how small a core is filled does not depend on the density, if there is any
+}
+
 /// Of a region that infill takes up, its links along the rim included.
 double LayeredPrint::share(double infill_ratio, const Polygons& region) const {
   if (infill_ratio == 0 || region.empty()) return 0;

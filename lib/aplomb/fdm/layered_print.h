@@ -29,6 +29,10 @@ class LayeredPrint {
   /// \par Cost  O(layers n) set operations on polygons, n being the number of layers in a skin.
   static Result<LayeredPrint> make(const PrintedSolid& printed, const PrintProfile& profile, const Job& job = {});
 
+  /// The same with another density of infill throughout; nothing where its walls and skins would be others, too.
+  /// \pre  infill_ratio in [0, 1].
+  std::optional<LayeredPrint> with_infill(double infill_ratio) const;
+
   /// What is laid down. \par Cost  a few set operations a layer.
   Result<PredictedPrint> fill(const std::optional<DenseInfill>& denser = {}, const Job& job = {}) const;
 

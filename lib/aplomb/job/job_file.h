@@ -36,9 +36,10 @@ struct JobFile {
   std::optional<Flavor> flavor;    ///< whose words a 3MF uses for it; none: the profile's slicer's
   InputOptions input;
   std::vector<JobPose> poses{JobPose{}};
-  StandOptions options;  ///< all but the poses: see stand_options()
-  int threads = 0;       ///< 0: one per core
-  RuleChanges rules;     ///< what the print is judged by
+  StandOptions options;          ///< all but the poses: see stand_options()
+  int threads = 0;               ///< 0: one per core
+  std::optional<double> time_s;  ///< > 0; after which the run ends; none: when it is done
+  RuleChanges rules;             ///< what the print is judged by
   double infill_percent = 100;
   std::vector<std::string> inserts;  ///< as parse_insert() reads them
   bool fem = false;                  ///< whether strength.fem is asked for

@@ -89,6 +89,8 @@ std::string find_problem(const JobFile& job) {
                               find_problem(job.input.read), find_problem(stand_options(job, 1))})
     if (!problem.empty()) return problem;
   if (const auto judging = judge_options(job); !judging) return judging.error().message;
+  if (job.time_s && !(*job.time_s > 0 && *job.time_s <= 1e7))
+    return fmt::format("time_s is {}; it must lie in (0, 1e7]", *job.time_s);
   if (job.threads < 0) return fmt::format("threads is {}; it must be at least 0", job.threads);
   return {};
 }

@@ -104,6 +104,8 @@ void visit_job(const Visitor& v, JobFile& job) {
   v.preset("material", job.options.density_g_per_cm3, density_of_material);
   v.value("density_g_per_cm3", job.options.density_g_per_cm3);
   v.memory("memory_mb", job.options.memory_bytes);
+  v.value("max_triangles", job.input.read.max_triangles);
+  v.value("time_s", job.time_s);
   v.value("threads", job.threads);
   v.value("layer_mm", job.rules.layer_mm);
   v.value("infill_percent", job.infill_percent);
