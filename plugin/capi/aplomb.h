@@ -80,8 +80,9 @@ typedef struct aplomb_result aplomb_result;
 /* The calls that work. All take a mesh, a job, a listener or null, and where to put the result.
  *
  * The job is JSON, UTF-8, as lib/aplomb/job/job.schema.json has it, but for the keys that name files ("model",
- * "output", "report", "dump", "html", "picture", "plugs"), which are refused: {"aplomb_job": 1, "wall_mm": 2}. Null or
- * "" stands for {"aplomb_job": 1}: make it stand as it lies, with a tip angle of 10 degrees.
+ * "output", "report", "dump", "html", "picture", "plugs", "profile", "modifier") and "time_s", which are refused:
+ * {"aplomb_job": 1, "wall_mm": 2}. Null or "" stands for {"aplomb_job": 1}: make it stand as it lies, with a tip angle
+ * of 10 degrees.
  *
  * *result is set to a result that says more, to be freed, also when the call fails; it is null only where memory ran
  * out. `result` itself may be null if only the status is wanted. */

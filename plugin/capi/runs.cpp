@@ -65,10 +65,12 @@ Result<JobFile> job_without_files(const std::string& text) {
   if (text.size() > most_job_bytes) return fail(ErrorCode::invalid_option, "the job: it has at most 1 MB");
   const auto json = nlohmann::json::parse(text, nullptr, false);
   if (!json.is_object() || json.empty()) return parse_job(text, ".");  // which says what is wrong with it
-  for (const char* key : {"model", "output", "report", "dump", "html", "picture", "plugs"})
+  for (const char* key : {"model", "output", "report", "dump", "html", "picture", "plugs", "profile", "modifier"})
     if (json.contains(key))
       return fail(ErrorCode::invalid_option, std::string("the job has the key \"") + key +
                                                  "\", which names a file; here the mesh comes and goes in memory");
+  if (json.contains("time_s"))
+    return fail(ErrorCode::invalid_option, "the job has the key \"time_s\"; here the listener ends what takes too long");
   std::string whole = text;  // not json.dump(), which calls itself as deep as a hostile text nests
   whole.insert(whole.find('{') + 1, std::string(model_key) + ", ");
   return parse_job(whole, ".");
