@@ -70,7 +70,8 @@ Result<JobFile> job_without_files(const std::string& text) {
       return fail(ErrorCode::invalid_option, std::string("the job has the key \"") + key +
                                                  "\", which names a file; here the mesh comes and goes in memory");
   if (json.contains("time_s"))
-    return fail(ErrorCode::invalid_option, "the job has the key \"time_s\"; here the listener ends what takes too long");
+    return fail(ErrorCode::invalid_option,
+                "the job has the key \"time_s\"; here the listener ends what takes too long");
   std::string whole = text;  // not json.dump(), which calls itself as deep as a hostile text nests
   whole.insert(whole.find('{') + 1, std::string(model_key) + ", ");
   return parse_job(whole, ".");

@@ -77,13 +77,13 @@ Moments layer_of(const PlaneMoments& plane, double thickness_mm, double z_mm) {
 }
 
 /// What of a core stays sparse: PrusaSlicer fills what is smaller than solid_below_mm2.
-Polygons sparse_of(const Polygons& core, double infill_ratio, const PrintProfile& profile) {
+Polygons sparse_of(const Polygons& core, double infill_ratio, const PrintProfile& profile, Regions& regions) {
   if (infill_ratio >= 1) return {};
   if (infill_ratio == 0) return core;
-  Polygons sparse;
+  Polygons small;
   for (const Polygons& piece : pieces(core))
-    if (area_mm2(piece) > profile.solid_below_mm2) sparse.insert(sparse.end(), piece.begin(), piece.end());
-  return sparse;
+    if (area_mm2(piece) <= profile.solid_below_mm2) small.insert(small.end(), piece.begin(), piece.end());
+  return small.empty() ? core : regions.less(core, small);
 }
 
 }  // namespace
@@ -154,8 +154,8 @@ struct LayeredPrint::Filling {
     if (denser && !layer.open.empty()) {
       const Polygons side{clipped(bounding_box(layer.open), layer.half(denser->dense))};
       if (!side.front().empty()) {
-        filling.dense = sparse_of(regions.common(layer.open, side), denser->infill_ratio, profile);
-        filling.sparse = sparse_of(regions.less(layer.open, side), profile.infill_ratio, profile);
+        filling.dense = sparse_of(regions.common(layer.open, side), denser->infill_ratio, profile, regions);
+        filling.sparse = sparse_of(regions.less(layer.open, side), profile.infill_ratio, profile, regions);
       }
     }
     filling.solid = layer.core;
@@ -196,7 +196,7 @@ Result<LayeredPrint> LayeredPrint::make(const PrintedSolid& printed, const Print
     Layer& layer = print.layers_[k];
     if (profile.infill_ratio >= 1 || layer.core.empty()) continue;
     layer.open = regions.less(layer.core, skins.skin(k));
-    layer.sparse = sparse_of(layer.open, profile.infill_ratio, profile);
+    layer.sparse = sparse_of(layer.open, profile.infill_ratio, profile, regions);
   }
   if (regions.error()) return tl::unexpected(*regions.error());
   return print;
