@@ -76,6 +76,18 @@ Moments layer_of(const PlaneMoments& plane, double thickness_mm, double z_mm) {
           thickness_mm * Vec3{plane.first_mm3.x, plane.first_mm3.y, plane.area_mm2 * z_mm}};
 }
 
+/// The strip of that width inside a region's rim as such a body, to first order: exact but for its corners.
+Moments strip_of(const Polygons& polygons, double width_mm, double thickness_mm, double z_mm) {
+  Moments strip;
+  for (const Polygon& polygon : polygons)
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const Vec2 a = polygon[i], b = polygon[(i + 1) % polygon.size()];
+      const double volume_mm3 = width_mm * norm(b - a) * thickness_mm;
+      strip += Moments{volume_mm3, volume_mm3 * Vec3{(a.x + b.x) / 2, (a.y + b.y) / 2, z_mm}};
+    }
+  return strip;
+}
+
 /// What of a core stays sparse: PrusaSlicer fills what is smaller than solid_below_mm2.
 Polygons sparse_of(const Polygons& core, double infill_ratio, const PrintProfile& profile, Regions& regions) {
   if (infill_ratio >= 1) return {};
@@ -186,8 +198,12 @@ Result<LayeredPrint> LayeredPrint::make(const PrintedSolid& printed, const Print
     top_mm += layer.height_mm;
     layer.outline = regions.of(adapters::grown(slice.material(), -0.0, tolerance_mm));
     layer.core = regions.inset(layer.outline, walls_mm - profile.infill_overlap_mm);
-    layer.walls = plane_moments_of(
-        regions.less(regions.inset(layer.outline, gap_mm / 2), regions.inset(layer.outline, walls_mm)));
+    if (profile.perimeters > 0) {
+      const Polygons within = regions.inset(layer.core, profile.infill_overlap_mm);
+      layer.walls = layer_of(plane_moments_of(layer.outline), layer.height_mm, layer.middle_mm) -
+                    strip_of(layer.outline, gap_mm / 2, layer.height_mm, layer.middle_mm) -
+                    layer_of(plane_moments_of(within), layer.height_mm, layer.middle_mm);
+    }
     print.layers_.push_back(std::move(layer));
   }
   Skins skins(print, regions);
@@ -230,7 +246,7 @@ Result<PredictedPrint> LayeredPrint::fill(const std::optional<DenseInfill>& dens
     const auto laid = [&](const Polygons& region, double thickness_mm) {
       return layer_of(plane_moments_of(region), p.flow_ratio * thickness_mm, layer.middle_mm);
     };
-    print.walls += layer_of(layer.walls, p.flow_ratio * layer.height_mm, layer.middle_mm);
+    print.walls += p.flow_ratio * layer.walls;
     Filling filling = Filling::of(layer, denser, p, regions);
     print.solid_infill += laid(filling.solid, layer.height_mm);
     if (p.thick_bridges && k > 0 && !filling.solid.empty()) {

@@ -45,7 +45,7 @@ class LayeredPrint {
  private:
   struct Layer {
     Polygons outline, core;
-    PlaneMoments walls;
+    Moments walls;    ///< laid at a flow ratio of 1
     Polygons open;    ///< of the core: without its skins, which are filled whatever the infill
     Polygons sparse;  ///< what of that stays sparse where nothing else is asked for
     double height_mm = 0, middle_mm = 0;
