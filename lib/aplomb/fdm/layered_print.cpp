@@ -14,7 +14,7 @@ namespace aplomb {
 namespace {
 
 constexpr double tolerance_mm = 0.004;  // of the polygons; a bead is a hundred times as wide
-constexpr double most_step_mm = 0.5;    // of an inset: deep ones cost the square of the corners
+constexpr double most_step_mm = 0.9;    // of an inset: deep ones cost the square of the corners
 constexpr double narrow_shell =
     0.3;                            // of a bead: skins under twice that are left out where shells keep their thickness
 constexpr double narrow_beads = 3;  // half of what counts as narrow, and by how much that grows
@@ -199,10 +199,14 @@ Result<LayeredPrint> LayeredPrint::make(const PrintedSolid& printed, const Print
     layer.outline = regions.of(adapters::grown(slice.material(), -0.0, tolerance_mm));
     layer.core = regions.inset(layer.outline, walls_mm - profile.infill_overlap_mm);
     if (profile.perimeters > 0) {
-      const Polygons within = regions.inset(layer.core, profile.infill_overlap_mm);
-      layer.walls = layer_of(plane_moments_of(layer.outline), layer.height_mm, layer.middle_mm) -
-                    strip_of(layer.outline, gap_mm / 2, layer.height_mm, layer.middle_mm) -
-                    layer_of(plane_moments_of(within), layer.height_mm, layer.middle_mm);
+      const auto strip = [&layer](const Polygons& polygons, double width_mm) {
+        return strip_of(polygons, width_mm, layer.height_mm, layer.middle_mm);
+      };
+      const auto all = [&layer](const Polygons& polygons) {
+        return layer_of(plane_moments_of(polygons), layer.height_mm, layer.middle_mm);
+      };
+      layer.walls = all(layer.outline) - strip(layer.outline, gap_mm / 2) - all(layer.core) +
+                    strip(layer.core, profile.infill_overlap_mm);
     }
     print.layers_.push_back(std::move(layer));
   }
