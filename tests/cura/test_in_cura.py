@@ -164,13 +164,24 @@ class InCura(unittest.TestCase):
         self.assertGreater(margins["made"], 2, margins)
 
     def test_infill_denser_on_one_side_arrives_as_an_infill_mesh_and_makes_it_stand(self):
-        told = self.seen["ballast"]
-        self.assertEqual([told[key] for key in ("infill_sparse_density", "wall_line_count", "top_layers", "bottom_layers")], [100, 0, 0, 0])
-        self.assertAlmostEqual(told["infill_line_distance"], 0.4)
-        tips = {name: self.verified(name) for name in ("sparse", "ballast")}
+        for told in (self.seen["ballast"], self.seen["ballast_by_menu"]):
+            self.assertEqual([told[key] for key in ("infill_sparse_density", "wall_line_count", "top_layers", "bottom_layers")], [100, 0, 0, 0])
+            self.assertAlmostEqual(told["infill_line_distance"], 0.4)
+        tips = {name: self.verified(name) for name in ("sparse", "ballast", "ballast_by_menu")}
         print("tip angles by the G-code at 15 % infill:", tips)
         self.assertLess(tips["sparse"], 0)
-        self.assertGreater(tips["ballast"], 7)  # of 8 that were asked for of such a profile
+        for name in ("ballast", "ballast_by_menu"):
+            self.assertGreater(tips[name], 7, name)  # of 8 that were asked for of such a profile
+
+    def test_at_little_infill_the_menu_adds_ballast_and_leaves_the_model_as_it_is(self):
+        made = self.seen["ballast_by_menu"]
+        self.assertTrue(made["kept"] and made["inside"])
+        self.assertLess(made["moved"], 1e-3)  # mm: what reaches below the plate does not lift the model
+        self.assertIn("stands now", self.seen["ballasted"]["text"])
+        self.assertIn("infill of 100 % in one part instead of 15 %", self.seen["ballasted"]["text"].replace("Infill", "infill"))
+        self.assertIn("without its ballast it falls over", self.seen["checked_with_ballast"]["text"])
+        self.assertTrue(self.seen["ballast_undone"])
+        self.assertEqual(self.seen["ballast_redone"], 1)
 
     def verified(self, name):
         report = self.folder / "verified.json"

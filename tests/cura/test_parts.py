@@ -89,7 +89,7 @@ class Command(unittest.TestCase):
             for key, value in (("tip_deg", 5), ("aim", "light"), ("deform", "auto"), ("robust", True), ("from_cura", False), ("wall_mm", 2.4)):
                 chosen = settings.cleaned({key: value})
                 for arguments in (command.check_arguments(str(model), f"{folder}/r.json", chosen, self.PROFILE),
-                                  command.stand_arguments(str(model), f"{folder}/o.stl", f"{folder}/r.json", chosen, self.PROFILE)):
+                                  command.stand_arguments(str(model), f"{folder}/o.stl", f"{folder}/r.json", chosen, self.PROFILE, None, "b.stl")):
                     ended = subprocess.run([CLI, *arguments, "--help"], capture_output=True, text=True)
                     self.assertEqual(ended.returncode, 0, ended.stderr)
                     ended = subprocess.run([CLI, *[a if a != str(model) else f"{folder}/none.stl" for a in arguments]], capture_output=True)
@@ -103,6 +103,15 @@ class Command(unittest.TestCase):
         untold = command.stand_arguments("m", "o", "r", settings.cleaned({"from_cura": False}), self.PROFILE)
         self.assertFalse({"--infill", "--layer", "--density"} & set(untold))
         self.assertNotIn("--infill", command.stand_arguments("m", "o", "r", settings.cleaned({}), {}))
+
+    def test_all_of_curas_settings_are_told_where_there_are_any_and_where_ballast_may_go(self):
+        told = command.stand_arguments("m", "o", "r", settings.cleaned({}), self.PROFILE, "cura.json", "ballast.stl")
+        self.assertEqual(told[told.index("--profile") + 1], "cura.json")
+        self.assertEqual(told[told.index("--modifier") + 1], "ballast.stl")
+        self.assertIn("--profile", command.check_arguments("m", "r", settings.cleaned({}), self.PROFILE, "cura.json"))
+        for untold in (command.stand_arguments("m", "o", "r", settings.cleaned({"from_cura": False}), self.PROFILE, "cura.json", "ballast.stl"),
+                       command.stand_arguments("m", "o", "r", settings.cleaned({}), {}, None, "ballast.stl")):
+            self.assertFalse({"--profile", "--modifier"} & set(untold))
 
     def test_the_carried_program_comes_before_the_one_on_the_path_and_is_made_to_run(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -182,6 +191,19 @@ class Verdicts(unittest.TestCase):
         for number in ("{:.1f}\u00b0".format(report["after"]["tip_deg"]), "\u2212{:.1f}\u00b0 before".format(-report["before"]["tip_deg"]),
                        "{:.1f} cm\u00b3".format(report["carving"]["void_mm3"] / 1000), "{:.2f} mm".format(report["wall_mm"]["measured"])):
             self.assertIn(number, told.text)
+
+    def test_ballast_is_said_with_its_densities_and_what_was_checked_without_it(self):
+        with tempfile.TemporaryDirectory() as folder:
+            pathlib.Path(folder, "cura.json").write_text(json.dumps(dict(layer_height=0.2, line_width=0.4, wall_line_count=2, top_layers=4,
+                                                                         bottom_layers=4, infill_sparse_density=15, material_density=1.24)))
+            profile = ["--profile", f"{folder}/cura.json"]
+            code, report, said = self.report_of("stand", str(FIXTURES / "trex.stl"), "--tip", "8deg", "--modifier", f"{folder}/b.stl", *profile)
+            told = verdict.of_stand("trex", code, report, said, True)
+            self.assertEqual(told.level, verdict.GOOD)
+            self.assertIn("Infill of 100 % in one part instead of 15 %, {:.1f} g more".format(report["ballast"]["added_g"]), told.text)
+            self.assertGreater(len(meshes.read_stl(f"{folder}/b.stl")), 0)
+            code, report, said = self.report_of("check", str(FIXTURES / "trex.stl"), *profile)
+            self.assertIn("without its ballast it falls over", verdict.of_check("trex", code, report, said, True).text)
 
     def test_settings_that_would_fill_the_void_are_named(self):
         cura = {"meshfix_union_all_remove_holes": False, "support_type": "everywhere", "support_enable": False}

@@ -3,10 +3,12 @@ import os
 import pathlib
 import shutil
 import stat
+import struct
 import subprocess
 import sys
 import tempfile
 import unittest
+import zipfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "plugin/prusaslicer"))
@@ -17,6 +19,42 @@ from aplomb_slice.settings import forced_keys  # noqa: E402
 STAGE = ROOT / "plugin/prusaslicer/aplomb-slice"
 FIXTURES = pathlib.Path(os.environ["APLOMB_FIXTURES"])
 SOLID = ["-g", "--fill-density", "100%", "--fill-pattern", "rectilinear", "--filament-density", "1.24", "--layer-height", "0.3"]
+
+MODEL = """<?xml version="1.0"?>
+<model unit="millimeter" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02"><resources>{}
+<object id="9" type="model"><components>{}</components></object></resources><build><item objectid="9"/></build></model>"""
+PACKAGE = {
+    "[Content_Types].xml": """<?xml version="1.0"?>
+<Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types">
+<Default Extension="rels" ContentType="application/vnd.openxmlformats-package.relationships+xml"/>
+<Default Extension="model" ContentType="application/vnd.ms-package.3dmanufacturing-3dmodel+xml"/></Types>""",
+    "_rels/.rels": """<?xml version="1.0"?>
+<Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships"><Relationship Id="r"
+Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel" Target="/3D/3dmodel.model"/></Relationships>""",
+}
+
+
+def triangles_of(stl):
+    """Of a binary STL: three corners each."""
+    data = pathlib.Path(stl).read_bytes()
+    (count,) = struct.unpack_from("<I", data, 80)
+    numbers = (struct.unpack_from("<9f", data, 96 + 50 * i) for i in range(count))
+    return [(corners[:3], corners[3:6], corners[6:]) for corners in numbers]
+
+
+def write_parts(path, *parts):
+    """A 3MF of one object with several parts, each of triangles."""
+    objects, components = "", ""
+    for number, triangles in enumerate(parts, 1):
+        at = {}
+        corners = [[at.setdefault(corner, len(at)) for corner in triangle] for triangle in triangles]
+        vertices = "".join('<vertex x="{}" y="{}" z="{}"/>'.format(*corner) for corner in at)
+        faces = "".join('<triangle v1="{}" v2="{}" v3="{}"/>'.format(*three) for three in corners)
+        objects += f'<object id="{number}" type="model"><mesh><vertices>{vertices}</vertices><triangles>{faces}</triangles></mesh></object>'
+        components += f'<component objectid="{number}"/>'
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as package:
+        for name, text in {**PACKAGE, "3D/3dmodel.model": MODEL.format(objects, components)}.items():
+            package.writestr(name, text)
 
 
 class CommandLine(unittest.TestCase):
@@ -114,6 +152,17 @@ class Slicing(unittest.TestCase):
                 code, said = self.stage("--aplomb", "--tip 1deg", "-o", output, FIXTURES / f"{name}.stl")
                 self.assertEqual(code, 0, said)
                 self.assertEqual(self.verify(output, "1deg"), 0)
+
+    def test_a_void_that_came_as_a_second_part_is_named_and_another_is_made(self):
+        """PrusaSlicer prints it solid: outer and inner surface as two ModelParts."""
+        shell, parts, output = (self.folder / name for name in ("shell.stl", "parts.3mf", "out.gcode"))
+        subprocess.run([os.environ["APLOMB"], "stand", FIXTURES / "trex.stl", "-o", shell, "--tip", "8deg", "-q"], check=True)
+        triangles, outer = triangles_of(shell), len(triangles_of(FIXTURES / "trex.stl"))
+        write_parts(parts, triangles[:outer], [triangle[::-1] for triangle in triangles[outer:]])
+        code, said = self.stage("--aplomb", "--tip 8deg", "-o", output, parts)
+        self.assertEqual(code, 0, said)
+        self.assertIn("if it was meant as a void, reverse its winding", said)
+        self.assertEqual(self.verify(output, "8deg"), 0)
 
     def test_each_object_of_a_plate_is_held_against_its_own_promise(self):
         output = self.folder / "plate.gcode"

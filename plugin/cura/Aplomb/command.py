@@ -42,8 +42,10 @@ def _number(value):
     return "{:.6g}".format(value)
 
 
-def _common(model, report, settings, profile):
+def _common(model, report, settings, profile, profile_file):
     arguments = [model, "--report", report, "--progress", "json", "--tip", _number(settings["tip_deg"]) + "deg"]
+    if profile_file and settings["from_cura"]:
+        arguments += ["--profile", profile_file]
     if settings["robust"]:
         arguments.append("--robust")
     if settings["from_cura"] and profile.get("density_g_per_cm3"):
@@ -51,13 +53,16 @@ def _common(model, report, settings, profile):
     return arguments
 
 
-def check_arguments(model, report, settings, profile):
-    return ["check"] + _common(model, report, settings, profile)
+def check_arguments(model, report, settings, profile, profile_file=None):
+    return ["check"] + _common(model, report, settings, profile, profile_file)
 
 
-def stand_arguments(model, output, report, settings, profile):
-    """`profile` holds what Cura is set to: infill_percent, layer_mm, density_g_per_cm3; any may be missing."""
-    arguments = ["stand"] + _common(model, report, settings, profile)
+def stand_arguments(model, output, report, settings, profile, profile_file=None, ballast=None):
+    """`profile` holds what Cura is set to: infill_percent, layer_mm, density_g_per_cm3; any may be missing. `profile_file`
+    holds all its settings, and `ballast` is where a volume of denser infill is written, if that serves better than a void."""
+    arguments = ["stand"] + _common(model, report, settings, profile, profile_file)
+    if ballast and "--profile" in arguments:
+        arguments += ["--modifier", ballast]
     arguments += ["-o", output, "--wall", _number(settings["wall_mm"]) + "mm", "--aim", settings["aim"], "--deform", settings["deform"]]
     if settings["from_cura"]:
         if profile.get("infill_percent") is not None:

@@ -14,7 +14,7 @@ from UM.Logger import Logger
 from UM.Message import Message
 from UM.Operations.GroupedOperation import GroupedOperation
 
-from . import command, scene, settings, verdict
+from . import ballast, command, scene, settings, verdict
 from .job import BalanceJob
 from .operation import SetMeshOperation
 
@@ -88,15 +88,27 @@ class AplombExtension(QObject, Extension):
             self._say(verdict.Verdict(verdict.ERROR, "Aplomb failed: {}".format(job.getError())))
             return
         verdicts, operation = [], GroupedOperation()
-        for state, said, triangles in job.getResult():
-            if triangles is not None and not state.is_current():
-                said = verdict.Verdict(verdict.WARNING, CHANGED.format(state.name))
-            elif triangles is not None:
-                operation.addOperation(SetMeshOperation(state.node, state.mesh_of(triangles)))
-            verdicts.append(said)
+        for outcome in job.getResult():
+            steps = self._steps(outcome)
+            if steps and not outcome.state.is_current():
+                verdicts.append(verdict.Verdict(verdict.WARNING, CHANGED.format(outcome.state.name)))
+                continue
+            for step in steps:
+                operation.addOperation(step)
+            verdicts.append(outcome.said)
         if operation.getNumChildrenOperations():
             operation.push()
         self._say(verdict.together(verdicts))
+
+    @staticmethod
+    def _steps(outcome):
+        """Operations that make a model what came of it."""
+        node = outcome.state.node
+        if outcome.ballast is not None:
+            return ballast.adding(node, outcome.ballast.triangles, outcome.ballast.infill_percent)
+        if outcome.mesh is not None:
+            return ballast.removing(node) + [SetMeshOperation(node, outcome.state.mesh_of(outcome.mesh))]
+        return []
 
     def _say(self, said):
         arguments = {"lifetime": 0, "title": "Aplomb"}

@@ -1,4 +1,5 @@
 """One click: runs the program on each model, off the main thread."""
+import collections
 import json
 import os
 import tempfile
@@ -11,10 +12,13 @@ from . import command, meshes, verdict
 from .program import Program
 
 ANOTHER_POSE = "is part of a group: ungroup it, or merge the parts to one mesh before loading it"
+# What came of one model. mesh: its new triangles, or None; ballast: a Ballast, or None; both in the node's own coordinates.
+Outcome = collections.namedtuple("Outcome", "state said mesh ballast")
+Ballast = collections.namedtuple("Ballast", "triangles infill_percent")
 
 
 class BalanceJob(Job):
-    """After run(): getResult() is a list of (state, verdict, triangles in the node's own coordinates or None).
+    """After run(): getResult() is a list of Outcomes.
 
     \\param models  of (ModelState, print profile); of those in a group the state alone counts, with None for a profile.
     """
@@ -49,25 +53,27 @@ class BalanceJob(Job):
 
     def _run_one(self, number, state, profile):
         if profile is None:
-            return state, verdict.Verdict(verdict.WARNING, "{}: {}.".format(state.name, ANOTHER_POSE)), None
+            return _unchanged(state, verdict.Verdict(verdict.WARNING, "{}: {}.".format(state.name, ANOTHER_POSE)))
         if self._is_cancelled:
-            return state, verdict.of_failure(state.name, verdict.CANCELLED, []), None
+            return _unchanged(state, verdict.of_failure(state.name, verdict.CANCELLED, []))
         try:
             with tempfile.TemporaryDirectory(prefix="aplomb") as folder:
                 return self._run_in(folder, number, state, profile)
         except (OSError, ValueError) as error:  # the program cannot be started, or the disk is full
             Logger.logException("e", "Aplomb failed")
-            return state, verdict.of_failure(state.name, verdict.INTERNAL, [str(error)]), None
+            return _unchanged(state, verdict.of_failure(state.name, verdict.INTERNAL, [str(error)]))
 
     def _run_in(self, folder, number, state, profile):
-        model, output, report_file = (os.path.join(folder, name) for name in ("model.stl", "made.stl", "report.json"))
+        model, output, report_file, ballast_file = (
+            os.path.join(folder, name) for name in ("model.stl", "made.stl", "report.json", "ballast.stl"))
+        profile_file = _written_settings(os.path.join(folder, "cura.json"), profile)
         own = state.own_triangles()
         sent = meshes.to_plate(own, state.world)
         meshes.write_stl(model, sent)
         if self._makes_stand:
-            arguments = command.stand_arguments(model, output, report_file, self._settings, profile)
+            arguments = command.stand_arguments(model, output, report_file, self._settings, profile, profile_file, ballast_file)
         else:
-            arguments = command.check_arguments(model, report_file, self._settings, profile)
+            arguments = command.check_arguments(model, report_file, self._settings, profile, profile_file)
         self._current = Program(self._program, arguments, os.environ)
         if self._is_cancelled:
             self._current.cancel()
@@ -78,11 +84,16 @@ class BalanceJob(Job):
                 report = json.load(file)
         Logger.log("i", "Aplomb: %s ended with %s: %s", " ".join(arguments), code, " | ".join(said[:3]))
         if not self._makes_stand:
-            return state, verdict.of_check(state.name, code, report, said), None
-        made = None
+            return _unchanged(state, verdict.of_check(state.name, code, report, said, bool(state.ballast)))
+        made = ballast = None
         if code == verdict.STANDS and report.get("outcome") == "stands":
-            made = meshes.back_into_node(meshes.read_stl(output), sent, own, state.world)
-        return state, verdict.of_stand(state.name, code, report, said, made is not None, profile.get("spoilt_by", ())), made
+            if report.get("ballast"):
+                ballast = Ballast(meshes.from_plate(meshes.read_stl(ballast_file), state.world), report["ballast"]["infill_percent"][1])
+            else:
+                made = meshes.back_into_node(meshes.read_stl(output), sent, own, state.world)
+        is_changed = made is not None or ballast is not None
+        spoilt_by = () if ballast else profile.get("spoilt_by", ())
+        return Outcome(state, verdict.of_stand(state.name, code, report, said, is_changed, spoilt_by), made, ballast)
 
     def _show(self, number, name, share, stage):
         self._message.setText("{}: {}".format(name, stage))
@@ -91,3 +102,16 @@ class BalanceJob(Job):
     def _on_action(self, message, action):
         if action == "cancel":
             self.cancel()
+
+
+def _unchanged(state, said):
+    return Outcome(state, said, None, None)
+
+
+def _written_settings(path, profile):
+    """Cura's settings as a file for the program; None where Cura did not tell them."""
+    if not profile.get("settings"):
+        return None
+    with open(path, "w", encoding="utf-8") as file:
+        json.dump(profile["settings"], file)
+    return path

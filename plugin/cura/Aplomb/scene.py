@@ -6,7 +6,12 @@ from UM.Scene.Iterator.DepthFirstIterator import DepthFirstIterator
 from UM.Scene.Selection import Selection
 
 from . import meshes, verdict
+from .ballast import ballast_of
 
+# What the program reads of Cura's settings.
+SETTINGS = ("machine_nozzle_size", "layer_height", "layer_height_0", "line_width", "wall_line_width", "wall_line_width_0", "wall_line_width_x",
+            "infill_line_width", "skin_line_width", "wall_thickness", "wall_line_count", "top_bottom_thickness", "top_layers",
+            "bottom_layers", "infill_sparse_density", "infill_pattern", "infill_overlap_mm", "min_infill_area", "material_flow")
 NOT_PRINTED = ("isNonPrintingMesh", "isInfillMesh", "isSupportMesh", "isAntiOverhangMesh", "isCuttingMesh")
 
 
@@ -40,6 +45,7 @@ class ModelState:
         self.name = node.getName()
         self.mesh_data = node.getMeshData()
         self.world = node.getWorldTransformation().getData().copy()
+        self.ballast = ballast_of(node)
 
     def is_current(self):
         """Whether it is still in the scene with the same mesh, size and turn; it may have been moved."""
@@ -61,8 +67,8 @@ class ModelState:
 
 
 def print_profile(node):
-    """How Cura will print a model: infill_percent, layer_mm, density_g_per_cm3, and what spoils a void (spoilt_by); what it
-    does not tell is missing."""
+    """How Cura will print a model: infill_percent, layer_mm, density_g_per_cm3, all that the program reads (settings), and
+    what spoils a void (spoilt_by); what it does not tell is missing."""
     profile = {}
     try:
         stack = Application.getInstance().getGlobalContainerStack()
@@ -75,6 +81,16 @@ def print_profile(node):
         density = extruder.material.getMetaDataEntry("properties", {}).get("density")
         if density:
             profile["density_g_per_cm3"] = float(density)
+        profile["settings"] = _settings(own, profile)
     except (AttributeError, IndexError, TypeError, ValueError):  # no printer, or another Cura's idea of one
         Logger.logException("w", "Aplomb: Cura does not tell how it prints")
     return profile
+
+
+def _settings(stack, profile):
+    """SETTINGS as Cura resolves them. What an older or newer Cura does not have is left out."""
+    values = {key: stack.getProperty(key, "value") for key in SETTINGS}
+    told = {key: value for key, value in values.items() if isinstance(value, (int, float, str)) and not isinstance(value, bool)}
+    if "density_g_per_cm3" in profile:
+        told["material_density"] = profile["density_g_per_cm3"]
+    return told

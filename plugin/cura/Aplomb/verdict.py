@@ -55,6 +55,10 @@ def work_line(report):
     carving, wall, deformation = report.get("carving"), report.get("wall_mm"), report.get("deformation")
     if carving:
         parts.append("void {:.1f} cm\u00b3".format(carving["void_mm3"] / 1000))
+    ballast = report.get("ballast")
+    if ballast:
+        parts.append("infill of {:.0f} % in one part instead of {:.0f} %, {:.1f} g more".format(
+            ballast["infill_percent"][1], ballast["infill_percent"][0], ballast["added_g"]))
     if wall:
         parts.append("wall {:.2f} mm".format(wall["measured"]))
     if deformation and deformation.get("trim_mm"):
@@ -78,8 +82,11 @@ def _figures(report):
     return [line for line in (tip_line(report), mass_line(report), work_line(report)) if line]
 
 
-def of_check(name, code, report, said):
-    """Of "Will it stand?"."""
+def of_check(name, code, report, said, has_ballast=False):
+    """Of "Will it stand?". \\param has_ballast  it was made to stand by infill, which the program was not told of."""
+    if has_ballast and code in (STANDS, CANNOT_STAND):
+        head = "{}: without its ballast it {}. With it, it stands as it did when the ballast was made, unless it was changed since."
+        return Verdict(WARNING, "\n".join([head.format(name, "stands" if code == STANDS else "falls over")] + _figures(report)))
     if code == STANDS:
         return Verdict(GOOD, "\n".join(["{}: it stands.".format(name)] + _figures(report)))
     if code == CANNOT_STAND:
@@ -105,7 +112,7 @@ def of_stand(name, code, report, said, is_swapped, spoilt_by=()):
         return Verdict(GOOD, "\n".join([head.format(name)] + _figures(report)))
     if code == CANNOT_STAND:
         helps = ["Left as it was. A smaller angle, a thinner wall, another pose or \u201coutside may change\u201d may help."]
-        return Verdict(WARNING, "\n".join(["{}: no void makes it stand as asked.".format(name)] + _figures(report) + helps))
+        return Verdict(WARNING, "\n".join(["{}: nothing inside makes it stand as asked.".format(name)] + _figures(report) + helps))
     if code == DOES_NOT_PRINT:
         lines = ["{}: left as it was, for what would stand would not print as Cura is set.".format(name)]
         return Verdict(WARNING, "\n".join(lines + failures(report)))

@@ -98,6 +98,7 @@ class Driver(Extension):
         self._seen["redone"] = node.getMeshData() is made
         yield from self.change_while_at_work(node)
         yield from self.choose_among_several(node)
+        yield from self.make_ballast()
         yield from self.open_ballast()
 
     def prepare(self):
@@ -246,29 +247,57 @@ class Driver(Extension):
         yield from self.choose("Will it stand?")
         self.see_verdict("of_group")
 
-    def open_ballast(self):
-        """Opens a model with its infill mesh, at little infill."""
+    def clear(self):
         for node in self._app.getController().getScene().getRoot().getChildren()[:]:
             if node.callDecoration("isSliceable") or node.callDecoration("isGroup"):
                 node.setParent(None)
+
+    def dense_parts(self):
+        return [node for node in self.models() if node.callDecoration("isInfillMesh")]
+
+    def settings_of(self, dense):
+        return {key: dense.callDecoration("getStack").getProperty(key, "value") for key in (
+            "infill_sparse_density", "wall_line_count", "top_layers", "bottom_layers", "infill_line_distance", "infill_pattern")}
+
+    def make_ballast(self):
+        """At little infill "Make it stand" fills one part of the model more densely, and Undo takes that back."""
+        self.clear()
         extruder = self._app.getGlobalContainerStack().extruderList[0]
         extruder.userChanges.setProperty("infill_sparse_density", "value", 15)
         extruder.userChanges.removeInstance("infill_line_distance")
-        self._app.readLocalFile(QUrl.fromLocalFile(BALLAST), "open_as_model")
-        dense_parts = lambda: [node for node in self.models() if node.callDecoration("isInfillMesh")]
-        yield dense_parts
+        self._app.readLocalFile(QUrl.fromLocalFile(MODEL), "open_as_model")
+        yield lambda: self.model() is not None
         yield self.after(2)
-        (dense,) = dense_parts()
+        node = self.model()
+        original, place = node.getMeshData(), node.getWorldPosition()
+        yield from self.choose("Make it stand")
+        self.see_verdict("ballasted")
+        yield self.after(2)  # Cura sets models down on the plate
+        (dense,) = self.dense_parts()
+        self._seen["ballast_by_menu"] = dict(self.settings_of(dense), kept=node.getMeshData() is original, inside=dense.getParent() is node,
+                                             moved=(node.getWorldPosition() - place).length())
+        yield from self.choose("Will it stand?")
+        self.see_verdict("checked_with_ballast")
+        yield from self.slice("ballast_by_menu")
+        self._app.getOperationStack().undo()
+        self._seen["ballast_undone"] = not self.dense_parts()
+        yield from self.slice("sparse")
+        self._app.getOperationStack().redo()
+        self._seen["ballast_redone"] = len(self.dense_parts())
+
+    def open_ballast(self):
+        """Opens a model with its infill mesh, at little infill."""
+        self.clear()
+        self._app.readLocalFile(QUrl.fromLocalFile(BALLAST), "open_as_model")
+        yield self.dense_parts
+        yield self.after(2)
+        (dense,) = self.dense_parts()
         group = dense.getParent()  # Cura lays a 3MF where it says on the bed, not in its middle
         centre = group.getBoundingBox().center
         group.translate(Vector(-centre.x, 0, -centre.z), SceneNode.TransformSpace.World)
         yield self.after(2)
-        self._seen["ballast"] = {key: dense.callDecoration("getStack").getProperty(key, "value") for key in (
-            "infill_sparse_density", "wall_line_count", "top_layers", "bottom_layers", "infill_line_distance", "infill_pattern")}
+        self._seen["ballast"] = self.settings_of(dense)
         yield from self.slice("ballast")
-        dense.setParent(None)
-        yield self.after(1)
-        yield from self.slice("sparse")
 
     def save_mesh(self, name, node):
         mesh = node.getMeshData()
