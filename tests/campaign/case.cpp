@@ -132,11 +132,11 @@ StandOptions options_of(const Case& a_case, const SolidMesh& solid) {
 
 std::string describe(const Case& a_case) {
   const StandOptions& o = a_case.options;
-  std::string text = fmt::format("{} limbs{}, noise {:.3g} mm, cells {:.3g} mm, wall {:.4g} mm, voxel {:.4g} mm, {}, aim {}",
-                                 a_case.figure.limbs.size(), a_case.figure.is_crossing ? " that cross" : "",
-                                 a_case.figure.noise_mm, a_case.figure.cell_mm, o.wall_mm, *o.voxel_mm,
-                                 process_names[static_cast<std::size_t>(o.judge.rules.process())],
-                                 static_cast<int>(o.aim));
+  std::string text =
+      fmt::format("{} limbs{}, noise {:.3g} mm, cells {:.3g} mm, wall {:.4g} mm, voxel {:.4g} mm, {}, aim {}",
+                  a_case.figure.limbs.size(), a_case.figure.is_crossing ? " that cross" : "", a_case.figure.noise_mm,
+                  a_case.figure.cell_mm, o.wall_mm, *o.voxel_mm,
+                  process_names[static_cast<std::size_t>(o.judge.rules.process())], static_cast<int>(o.aim));
   text += fmt::format(", least void {:.3g} mm and {:.3g} mm3, deform {}", o.least_void_mm, o.least_volume_mm3,
                       static_cast<int>(o.deform));
   for (const PoseChoice& pose : a_case.poses)

@@ -14,10 +14,10 @@ namespace aplomb::campaign {
 struct PoseChoice {
   bool hangs = false;
   Vec3 up{0, 0, 1};
-  double angle_rad = 0;           ///< asked for, or
-  bool is_relative = false;       ///< by which it is to hold better than it does as it comes
+  double angle_rad = 0;      ///< asked for, or
+  bool is_relative = false;  ///< by which it is to hold better than it does as it comes
   double contact_height_mm = 0.1;
-  std::vector<double> vertices;   ///< one or two: hangs from there
+  std::vector<double> vertices;  ///< one or two: hangs from there
 };
 
 /// Everything that a run of the pipeline is given.

@@ -62,7 +62,8 @@ TriangleMesh polygonized(const Figure& figure) {
     for (int j = 0; j < points[1]; ++j)
       for (int i = 0; i < points[0]; ++i) {
         const double value = field(figure, floor_mm, origin + cell * Vec3{double(i), double(j), double(k)});
-        const bool is_rim = i == 0 || j == 0 || k == 0 || i + 1 == points[0] || j + 1 == points[1] || k + 1 == points[2];
+        const bool is_rim =
+            i == 0 || j == 0 || k == 0 || i + 1 == points[0] || j + 1 == points[1] || k + 1 == points[2];
         const double off_zero = std::abs(value) < 1e-3 * cell ? 1e-3 * cell : value;
         values.push_back(static_cast<float>(is_rim ? std::max(off_zero, 0.1 * cell) : off_zero));
       }
@@ -72,8 +73,7 @@ TriangleMesh polygonized(const Figure& figure) {
       for (int i = 0; i + 1 < points[0]; ++i) {
         CornerCell corner_cell{{i, j, k}, {}};
         for (int c = 0; c < 8; ++c)
-          corner_cell.values[c] =
-              values[((k + (c >> 2 & 1)) * points[1] + j + (c >> 1 & 1)) * points[0] + i + (c & 1)];
+          corner_cell.values[c] = values[((k + (c >> 2 & 1)) * points[1] + j + (c >> 1 & 1)) * points[0] + i + (c & 1)];
         const auto [least, most] = std::minmax_element(corner_cell.values.begin(), corner_cell.values.end());
         if (*least < 0 && *most > 0) cells.push_back(corner_cell);
       }

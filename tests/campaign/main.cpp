@@ -1,6 +1,6 @@
-// campaign FIRST COUNT FOLDER [SPOIL]: runs COUNT cases from the number FIRST on and leaves in FOLDER what judge_cases.mjs
-// is to judge. Prints a line for each broken promise, and how many came to which end. SPOIL, for the judge's own test,
-// makes every carved case wrong in one way and leaves nothing else.
+// campaign FIRST COUNT FOLDER [SPOIL]: runs COUNT cases from the number FIRST on and leaves in FOLDER what
+// judge_cases.mjs is to judge. Prints a line for each broken promise, and how many came to which end. SPOIL, for the
+// judge's own test, makes every carved case wrong in one way and leaves nothing else.
 #include <fmt/format.h>
 
 #include <array>

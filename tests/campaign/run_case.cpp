@@ -51,14 +51,12 @@ json claims_of(const PoseReport& pose) {
 }
 
 json claims_of(const Report& report, const StandRun& run, const StandOptions& options) {
-  json claims{{"outcome", to_string(report.outcome)},
-              {"robust", kind_of(options) == RowKind::robust},
-              {"voids", report.mesh->voids},
-              {"own_triangles", run.shell->outer_triangles},
-              {"drilled", !report.holes.empty()},
-              {"poses", json::array()}};
+  json claims{{"outcome", to_string(report.outcome)}, {"robust", kind_of(options) == RowKind::robust},
+              {"voids", report.mesh->voids},          {"own_triangles", run.shell->outer_triangles},
+              {"drilled", !report.holes.empty()},     {"poses", json::array()}};
   for (const PoseReport& pose : report.poses) claims["poses"].push_back(claims_of(pose));
-  if (report.wall) claims["wall"] = {{"required_mm", report.wall->required_mm}, {"measured_mm", report.wall->measured_mm}};
+  if (report.wall)
+    claims["wall"] = {{"required_mm", report.wall->required_mm}, {"measured_mm", report.wall->measured_mm}};
   if (report.carving) {
     constexpr std::array<const char*, 3> kinds{"tip", "tilt", "surplus"};
     claims["bound"] = {{"of", kinds[static_cast<std::size_t>(report.carving->bound_of)]},
@@ -84,8 +82,7 @@ std::string broken_promise(const TriangleMesh& figure, const TriangleMesh& writt
   if (report.outcome == Outcome::best_effort && all_hold(report)) return "it holds and is called a best effort";
   if (!run.carving || report.deformation) return {};
   const Carving& carving = *run.carving;
-  if (carving.t > carving.bound_t + 1e-7)
-    return fmt::format("t {} is beyond its bound {}", carving.t, carving.bound_t);
+  if (carving.t > carving.bound_t + 1e-7) return fmt::format("t {} is beyond its bound {}", carving.t, carving.bound_t);
   const double carved_mm3 = input.moments.volume_mm3 - carving.body.volume_mm3;
   const double off_mm3 = 1e-6 * input.moments.volume_mm3;
   if (!report.holes.empty() || report.carving->ceiling) return {};  // the bounds are of a carving with other aims
@@ -108,7 +105,8 @@ void make_wrong(Spoil spoil, TriangleMesh& written, json& claims) {
     double least = 1e300;
     for (std::size_t t = 0; t < first; ++t)
       for (const std::uint32_t v : written.triangles[t])
-        if (const double far = norm(written.vertices[v] - moved); far < least) least = far, nearest = written.vertices[v];
+        if (const double far = norm(written.vertices[v] - moved); far < least)
+          least = far, nearest = written.vertices[v];
     moved = moved + 0.5 * (nearest - moved);
     written = rounded_to_float(std::move(written));
   }
