@@ -187,7 +187,7 @@ class Drainer {
     if (!mended) return tl::unexpected(mended.error());
     clock_.lap("judge holes");
     if (*mended) return Next::carve;
-    if (const auto bounded = certify(job.part(1, 1)); !bounded) return tl::unexpected(bounded.error());
+    if (const auto bounded = certify(body, job.part(1, 1)); !bounded) return tl::unexpected(bounded.error());
     made_.carving.reaches = is_reached(body);
     made_.carving.body = body;
     made_.holes = std::move(drilled.holes);
@@ -197,11 +197,12 @@ class Drainer {
   }
 
   /// These holes may take other material than those that the void was carved with: the bound is to be of these.
-  Result<void> certify(const Job& job) {
-    const Moments solid = input_.moments - taken_ + inserts_as_solid(input_.inserts, options_);
+  Result<void> certify(const Moments& drilled, const Job& job) {
+    const Moments inserts = inserts_as_solid(input_.inserts, options_), solid = input_.moments - taken_ + inserts;
     const auto bound = carving_bound(*made_.volume, solid, made_.joint.problem, bound_tolerance, job);
     if (!bound) return tl::unexpected(bound.error());
     made_.carving.bound_t = *bound;
+    made_.carving.t = largest_t(made_.joint.problem, drilled + inserts);
     return {};
   }
 

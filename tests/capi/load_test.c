@@ -103,7 +103,7 @@ static void a_thousand_models_in_a_row_hold_no_more_memory_than_fifty(void) {
   after = memory_now();
   printf("allocated %ld and %ld bytes, resident %ld and %ld\n", before.allocated, after.allocated, before.resident,
          after.resident);
-  EXPECT(after.allocated - before.allocated < 200 * 1000);  /* 200 bytes a model */
+  EXPECT(after.allocated - before.allocated < 200 * 1000);    /* 200 bytes a model */
   EXPECT(after.resident - before.resident < 4 * 1000 * 1000); /* pages come and go */
   for (i = 0; i < kinds; ++i) aplomb_result_free(first[i]);
 }
