@@ -51,7 +51,7 @@ std::vector<Range> parts_of(const Range& whole) {
 }
 
 template <class Range, class Body, class... Partitioner>
-  requires requires(const Range& range) { range.is_divisible(); }
+requires requires(const Range& range) { range.is_divisible(); }
 void plain_parallel_for(const Range& range, const Body& body, Partitioner&&...) {
   const std::vector<Range> parts = parts_of(range);
   run_on_threads(parts.size(), [&](std::size_t n) {
@@ -61,7 +61,7 @@ void plain_parallel_for(const Range& range, const Body& body, Partitioner&&...) 
 }
 
 template <class Index, class Body>
-  requires std::is_integral_v<Index>
+requires std::is_integral_v<Index>
 void plain_parallel_for(Index first, Index last, const Body& body) {
   if (first < last) run_on_threads(std::size_t(last - first), [&](std::size_t n) { body(Index(first + Index(n))); });
 }
