@@ -92,7 +92,7 @@ std::vector<Region> printed_body(const PredictedPrint& print, const StandOptions
 
 BallastFigures ballast_figures(const Ballast& ballast, const JointProblem& joint, const StandOptions& options) {
   const bool hangs = !joint.is_surplus && options.poses.front().hanging();
-  const double bound_rad = std::atan(ballast.bound_t);
+  const double bound_rad = std::atan(ballast.bound_t + joint.overlooked_t);
   return {profile_with_ballast(options).infill_ratio,
           ballast.infill.infill_ratio,
           ballast.infill.dense,

@@ -11,12 +11,14 @@
 #include "aplomb/holes/drill.h"
 #include "aplomb/holes/hole_places.h"
 #include "aplomb/holes/undrained.h"
+#include "aplomb/inserted.h"
 #include "aplomb/mesh/detail/topology.h"
 
 namespace aplomb {
 namespace {
 
 constexpr double aimed_beyond_rad = 0.004 * std::numbers::pi / 180;
+constexpr double bound_tolerance = 1e-6;  // of t
 constexpr double everything = std::numeric_limits<double>::infinity();
 constexpr int most_rounds = 14;
 constexpr int rounds_of_exact_fills = 4;
@@ -185,12 +187,23 @@ class Drainer {
     if (!mended) return tl::unexpected(mended.error());
     clock_.lap("judge holes");
     if (*mended) return Next::carve;
+    if (const auto bounded = certify(body, job.part(1, 1)); !bounded) return tl::unexpected(bounded.error());
     made_.carving.reaches = is_reached(body);
     made_.carving.body = body;
     made_.holes = std::move(drilled.holes);
     made_.shell->mesh = std::move(drilled.mesh);
     made_.shell->outer_triangles = drilled.untouched_outer;
     return Next::nothing;
+  }
+
+  /// These holes may take other material than those that the void was carved with: the bound is to be of these.
+  Result<void> certify(const Moments& drilled, const Job& job) {
+    const Moments inserts = inserts_as_solid(input_.inserts, options_), solid = input_.moments - taken_ + inserts;
+    const auto bound = carving_bound(*made_.volume, solid, made_.joint.problem, bound_tolerance, job);
+    if (!bound) return tl::unexpected(bound.error());
+    made_.carving.bound_t = *bound;
+    made_.carving.t = largest_t(made_.joint.problem, drilled + inserts);
+    return {};
   }
 
   /// Keeps from being carved what helps against what the judge finds in the carved voids. \return whether anything was.

@@ -181,7 +181,7 @@ class Inserter {
     InsertFigures figures;
     figures.allowed = allowed_;
     figures.bound_of = bound_of(joint_, options_);
-    figures.bound_rad = shown_rad(bound_t);
+    figures.bound_rad = shown_rad(bound_t + joint_.overlooked_t);
     figures.step_mm = fits.step_mm();
     figures.layer_mm = layers_of(options_).layer_mm;
     const double plate = input_.solid.box().min.z;

@@ -64,7 +64,7 @@ CarvingFigures carving_figures(const Carving& carving, const Input& input, const
                                const StandOptions& options) {
   constexpr std::array<const char*, 3> aims{"least", "light", "stable"};
   const bool hangs = !joint.is_surplus && options.poses.front().hanging();
-  const double bound_rad = std::atan(carving.bound_t);
+  const double bound_rad = std::atan(carving.bound_t + joint.overlooked_t);
   return {aims[static_cast<int>(options.aim)],
           input.moments.volume_mm3 - carving.body.volume_mm3,
           hangs ? -bound_rad : bound_rad,

@@ -13,9 +13,9 @@ static int failures;
   ((condition) ? (void)0 : (void)(++failures, fprintf(stderr, "%s:%d: %s\n", __func__, __LINE__, #condition)))
 
 /* A call's status, checked against what is expected of it, with what it says where that is another. */
-static aplomb_status run(aplomb_status (*call)(const aplomb_mesh*, const char*, const aplomb_listener*,
-                                               aplomb_result**),
-                         const aplomb_mesh* mesh, const char* job, const char* said) {
+static inline aplomb_status run(aplomb_status (*call)(const aplomb_mesh*, const char*, const aplomb_listener*,
+                                                      aplomb_result**),
+                                const aplomb_mesh* mesh, const char* job, const char* said) {
   aplomb_result* result = NULL;
   const aplomb_status status = call(mesh, job, NULL, &result);
   EXPECT(result != NULL);

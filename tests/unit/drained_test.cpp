@@ -53,7 +53,10 @@ TEST_P(Drained, HasNothingThatTheJudgeFailsAndStillReaches) {
   EXPECT_GE(made->holes.size(), 2U);
   EXPECT_TRUE(undrained(made->shell->mesh, Rules(GetParam()))->empty());
   EXPECT_TRUE(made->carving.reaches);
-  EXPECT_GE(largest_t(made->joint.problem, moments(made->shell->mesh)), made->joint.required_t);
+  const double t = largest_t(made->joint.problem, moments(made->shell->mesh));
+  EXPECT_GE(t, made->joint.required_t);
+  EXPECT_NEAR(made->carving.t, t, 1e-9);  // of the holes as cut, not of those that it was carved with
+  EXPECT_LE(t, made->carving.bound_t + 1e-4);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Drained, testing::Values(Process::sla, Process::powder, Process::binder),

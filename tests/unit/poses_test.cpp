@@ -95,6 +95,22 @@ TEST(JointProblem, OfABoxOnTwoFacesFollowsTheClosedForm) {
   EXPECT_NEAR(largest_t(joint.problem, moments(box)), std::min(on_end, on_side), 1e-12);
 }
 
+TEST(JointProblem, IsExceededByNoMeasuredSurplusButForWhatTheDirectionsOfThreadsOverlook) {
+  const std::vector<Pose> poses{hanging_from({{0, 0, 10}}, 50), hanging_from({{1, 0, 12}}, 60)};
+  const JointProblem joint = joint_problem({}, poses, RowKind::nominal).value();
+  int overlooked = 0;
+  for (int turn = 0; turn < 40; ++turn) {
+    const Vec3 com{3 * std::cos(0.157 * turn), 3 * std::sin(0.157 * turn), 4};
+    double surplus = infinity;
+    for (const Pose& pose : poses)
+      surplus = std::min(surplus, surplus_t(pose, hanging_of(com, pose), RowKind::nominal));
+    const double t = largest_t(joint.problem, {1, com});
+    EXPECT_LE(surplus, t + joint.overlooked_t + 1e-12);
+    overlooked += surplus > t + 1e-6;
+  }
+  EXPECT_GT(overlooked, 0);
+}
+
 TEST(JointProblem, OfOnePoseKeepsItsOwnAngle) {
   const TriangleMesh box = test::box({}, {20, 30, 50});
   const Pose pose = standing_on({0, 0, -1}, 10);

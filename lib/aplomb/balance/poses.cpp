@@ -1,5 +1,6 @@
 #include "aplomb/balance/poses.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -44,6 +45,8 @@ Result<JointProblem> joint_problem(const TriangleMesh& outer, std::span<const Po
     const auto rows = rows_of(outer, pose, kind);
     if (!rows) return tl::unexpected(rows.error());
     const double own_t = joint.is_surplus ? t_of(pose) : 0;
+    if (const HangingPose* hanging = pose.hanging(); hanging && joint.is_surplus)
+      joint.overlooked_t = std::max(joint.overlooked_t, std::tan(hanging->required_tilt_rad) + own_t);
     for (const BalanceRow& row : rows->rows) joint.problem.rows.push_back({row.at(own_t), row.b});
   }
   return joint;

@@ -30,6 +30,8 @@ struct JointProblem {
   BalanceProblem problem;
   double required_t = 0;  ///< every pose holds as asked from here on
   bool is_surplus = false;
+  /// Of a surplus: measured, all may exceed theirs by so much more than t, for what directions of threads overlook.
+  double overlooked_t = 0;
 };
 
 /// Unites the rows of the poses. A single pose keeps its own t: tan(tip angle), or -tan(tilt). Of several, each with

@@ -3,6 +3,7 @@
 #include <glpk.h>
 
 #include <algorithm>
+#include <csetjmp>
 #include <memory>
 
 namespace aplomb::adapters {
@@ -38,34 +39,68 @@ void load(glp_prob* problem, const LinearProgram& program) {
   }
 }
 
-bool solved(glp_prob* problem, double tolerance) {
+/// Ends the simplex method where an assertion of GLPK fails, which else ends the process.
+void leave(void* ended) { std::longjmp(*static_cast<std::jmp_buf*>(ended), 1); }
+
+int say_nothing(void*, const char*) { return 1; }
+
+enum class Ended { solved, unsolved, failed };
+
+/// One try. Where it failed, GLPK's whole environment is gone, and the problem with it. Nothing here has a destructor.
+Ended tried(glp_prob* problem, const glp_smcp& parameters) {
+  std::jmp_buf failed;
+  if (setjmp(failed) != 0) {
+    glp_free_env();
+    return Ended::failed;
+  }
+  glp_error_hook(leave, &failed);
+  const bool is_solved = glp_simplex(problem, &parameters) == 0 && glp_get_status(problem) == GLP_OPT;
+  glp_error_hook(nullptr, nullptr);
+  return is_solved ? Ended::solved : Ended::unsolved;
+}
+
+Ended solved(glp_prob* problem, int method) {
   glp_smcp parameters;
   glp_init_smcp(&parameters);
   parameters.msg_lev = GLP_MSG_OFF;
-  parameters.meth = GLP_DUALP;  // the primal method where the dual one gives up
-  parameters.tol_bnd = tolerance;
-  parameters.tol_dj = tolerance;
-  return glp_simplex(problem, &parameters) == 0 && glp_get_status(problem) == GLP_OPT;
+  parameters.meth = method;
+  auto ended = Ended::unsolved;
+  for (const double tolerance : {1e-10, 1e-9, 1e-7}) {
+    parameters.tol_bnd = tolerance;
+    parameters.tol_dj = tolerance;
+    ended = tried(problem, parameters);
+    if (ended != Ended::unsolved) break;
+    if (tolerance > 1e-10) continue;
+    glp_scale_prob(problem, GLP_SF_AUTO);  // columns that are nearly the same, mostly
+    glp_adv_basis(problem, 0);
+  }
+  return ended;
+}
+
+LinearSolution solution_of(glp_prob* problem, const LinearProgram& program) {
+  LinearSolution solution;
+  solution.value = glp_get_obj_val(problem);
+  for (std::size_t c = 0; c < program.variables.size(); ++c)
+    solution.x.push_back(glp_get_col_prim(problem, static_cast<int>(c) + 1));
+  for (std::size_t r = 0; r < program.rows.size(); ++r)
+    solution.duals.push_back(glp_get_row_dual(problem, static_cast<int>(r) + 1));
+  return solution;
 }
 
 }  // namespace
 
 std::optional<LinearSolution> solve(const LinearProgram& program) {
-  glp_term_out(GLP_OFF);
-  const std::unique_ptr<glp_prob, Delete> problem(glp_create_prob());
-  load(problem.get(), program);
-  if (!solved(problem.get(), 1e-10)) {  // columns that are nearly the same, mostly
-    glp_scale_prob(problem.get(), GLP_SF_AUTO);
-    glp_adv_basis(problem.get(), 0);
-    if (!solved(problem.get(), 1e-9) && !solved(problem.get(), 1e-7)) return std::nullopt;
+  for (const int method : {GLP_DUALP, GLP_PRIMAL}) {  // DUALP: the primal method where the dual one gives up
+    glp_term_out(GLP_OFF);
+    glp_term_hook(say_nothing, nullptr);  // of assertions, too
+    std::unique_ptr<glp_prob, Delete> problem(glp_create_prob());
+    load(problem.get(), program);
+    const Ended ended = solved(problem.get(), method);
+    if (ended == Ended::solved) return solution_of(problem.get(), program);
+    if (ended == Ended::unsolved) return std::nullopt;
+    static_cast<void>(problem.release());
   }
-  LinearSolution solution;
-  solution.value = glp_get_obj_val(problem.get());
-  for (std::size_t c = 0; c < program.variables.size(); ++c)
-    solution.x.push_back(glp_get_col_prim(problem.get(), static_cast<int>(c) + 1));
-  for (std::size_t r = 0; r < program.rows.size(); ++r)
-    solution.duals.push_back(glp_get_row_dual(problem.get(), static_cast<int>(r) + 1));
-  return solution;
+  return std::nullopt;
 }
 
 }  // namespace aplomb::adapters

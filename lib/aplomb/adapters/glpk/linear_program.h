@@ -31,7 +31,8 @@ struct LinearSolution {
       duals;  ///< one per row: the value's derivative with respect to its lower bound, <= 0 for inequalities
 };
 
-/// Solves by GLPK's simplex method. Nothing when it is infeasible, unbounded or does not solve it.
+/// Solves by GLPK's simplex method. Nothing when it is infeasible, unbounded or does not solve it,
+/// nor where an assertion of GLPK fails, as on columns that are nearly the same.
 /// Meant for small programs: O(rows x variables) memory.
 std::optional<LinearSolution> solve(const LinearProgram& program);
 
