@@ -79,16 +79,19 @@ class Thickness {
   const SurfaceDistance distance_;
 };
 
-/// The spots of thin samples that are more than slivers, least first.
-std::vector<Place> thin_spots(const Thickness& thickness, const detail::SurfaceSamples& surface,
-                              const std::vector<SurfaceDistance::Pinch>& pinches, double limit_mm) {
+/// The spots of thin samples that are more than slivers, least first. Nothing when the job stops.
+std::optional<std::vector<Place>> thin_spots(const Thickness& thickness, const detail::SurfaceSamples& surface,
+                                             const std::vector<SurfaceDistance::Pinch>& pinches, double limit_mm,
+                                             const Job& job) {
   std::vector<std::uint32_t> thin;
   std::vector<Vec3> points;
-  for (std::uint32_t i = 0; i < pinches.size(); ++i)
+  for (std::uint32_t i = 0; i < pinches.size(); ++i) {
+    if (i % 1024 == 0 && !job.report(0.5, "measure thin walls")) return std::nullopt;
     if (2 * pinches[i].radius_mm < limit_mm && thickness.is_across(surface.samples[i], pinches[i])) {
       thin.push_back(i);
       points.push_back(surface.samples[i].point_mm);
     }
+  }
   std::vector<Place> spots;
   for (const auto& group : detail::groups_within(points, std::max(limit_mm, 2 * surface.spacing_mm))) {
     Place spot;
@@ -133,8 +136,11 @@ Result<std::vector<Place>> wall_thin(const PrintedSolid& printed, const Rules& r
   double below = 2 * limit_mm;
   const auto pinches = thickness.measure(surface.samples, 1, below, job.part(0, 0.5));
   if (!pinches) return cancelled();
-  if (*limit > 0) places = thin_spots(thickness, surface, *pinches, limit_mm);
-  if (!places.empty()) return places;
+  if (*limit > 0) {
+    auto spots = thin_spots(thickness, surface, *pinches, limit_mm, job);
+    if (!spots) return cancelled();
+    if (!spots->empty()) return std::move(*spots);
+  }
   std::optional<Place> least = least_that_passes(thickness, surface.samples, *pinches, limit_mm);
   while (!least && below < 2 * diagonal) {
     const double above = below;

@@ -3,6 +3,7 @@
 #include <glpk.h>
 
 #include <algorithm>
+#include <csetjmp>
 #include <memory>
 
 namespace aplomb::adapters {
@@ -12,18 +13,50 @@ struct Delete {
   void operator()(glp_prob* problem) const { glp_delete_prob(problem); }
 };
 
+/// GLPK ends the program where one of its own checks fails or memory runs out, unless it is jumped out of.
+void jump_out(void* to) { std::longjmp(*static_cast<std::jmp_buf*>(to), 1); }
+
+/// Nothing that it says is for our standard output.
+int swallow(void*, const char*) { return 1; }
+
+/// Calls `step(data)`, which holds nothing that wants a destructor. \return False where GLPK gave up: then all that it
+/// holds in this thread is gone.
+bool guarded(void (*step)(void*), void* data) {
+  std::jmp_buf here;
+  if (setjmp(here) != 0) {
+    glp_error_hook(nullptr, nullptr);
+    glp_free_env();
+    return false;
+  }
+  glp_error_hook(jump_out, &here);
+  step(data);
+  glp_error_hook(nullptr, nullptr);
+  return true;
+}
+
 int bounds(double lower, double upper) {
   if (lower == -unbounded) return upper == unbounded ? GLP_FR : GLP_UP;
   return upper == unbounded ? GLP_LO : GLP_DB;
 }
 
-void load(glp_prob* problem, const LinearProgram& program) {
+/// What GLPK is called with and answers, in plain arrays that live outside of it.
+struct Work {
+  const LinearProgram& program;
+  std::vector<int> indices;  // GLPK counts from 1
+  std::vector<double> values;
+  glp_prob* problem = nullptr;
+  bool is_solved = false;
+};
+
+void load(Work& work) {
+  const LinearProgram& program = work.program;
+  glp_prob* problem = work.problem = glp_create_prob();
   const int columns = static_cast<int>(program.variables.size()), rows = static_cast<int>(program.rows.size());
   glp_set_obj_dir(problem, GLP_MAX);
   glp_add_cols(problem, columns);
   glp_add_rows(problem, rows);
-  std::vector<int> indices(columns + 1);  // GLPK counts from 1
-  std::vector<double> values(columns + 1);
+  auto& indices = work.indices;
+  auto& values = work.values;
   for (int c = 1; c <= columns; ++c) {
     const LinearProgram::Variable& variable = program.variables[c - 1];
     glp_set_obj_coef(problem, c, variable.objective);
@@ -48,17 +81,25 @@ bool solved(glp_prob* problem, double tolerance) {
   return glp_simplex(problem, &parameters) == 0 && glp_get_status(problem) == GLP_OPT;
 }
 
+/// Solves what is loaded; scaled, where columns are nearly the same.
+void load_and_solve(void* data) {
+  Work& work = *static_cast<Work*>(data);
+  load(work);
+  work.is_solved = solved(work.problem, 1e-10);
+  if (work.is_solved) return;
+  glp_scale_prob(work.problem, GLP_SF_AUTO);
+  glp_adv_basis(work.problem, 0);
+  work.is_solved = solved(work.problem, 1e-9) || solved(work.problem, 1e-7);
+}
+
 }  // namespace
 
 std::optional<LinearSolution> solve(const LinearProgram& program) {
-  glp_term_out(GLP_OFF);
-  const std::unique_ptr<glp_prob, Delete> problem(glp_create_prob());
-  load(problem.get(), program);
-  if (!solved(problem.get(), 1e-10)) {  // columns that are nearly the same, mostly
-    glp_scale_prob(problem.get(), GLP_SF_AUTO);
-    glp_adv_basis(problem.get(), 0);
-    if (!solved(problem.get(), 1e-9) && !solved(problem.get(), 1e-7)) return std::nullopt;
-  }
+  glp_term_hook(swallow, nullptr);
+  Work work{program, std::vector<int>(program.variables.size() + 1), std::vector<double>(program.variables.size() + 1)};
+  if (!guarded(load_and_solve, &work)) return std::nullopt;
+  const std::unique_ptr<glp_prob, Delete> problem(work.problem);
+  if (!work.is_solved) return std::nullopt;
   LinearSolution solution;
   solution.value = glp_get_obj_val(problem.get());
   for (std::size_t c = 0; c < program.variables.size(); ++c)
