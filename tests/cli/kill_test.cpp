@@ -6,8 +6,8 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <nlohmann/json.hpp>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <random>
 #include <set>
 
@@ -75,7 +75,9 @@ TEST_F(Killed, WhatAKillLeftIsClearedByTheNextRunAndNothingElseIs) {
   const std::string output = path("out.3mf");
   const pid_t gone = start({"--help"});
   ending_of(gone);
-  const auto left_by = [](pid_t id, int n) { return ".aplomb-" + std::to_string(id) + "-" + std::to_string(n) + "-0.tmp"; };
+  const auto left_by = [](pid_t id, int n) {
+    return ".aplomb-" + std::to_string(id) + "-" + std::to_string(n) + "-0.tmp";
+  };
   const std::string dead = left_by(gone, 1), fresh = left_by(gone, 2), alive = left_by(getpid(), 1);
   for (const std::string& name : {dead, fresh, alive, std::string(".aplomb-notes.tmp")}) {
     std::ofstream(path(name)) << "half";
@@ -110,8 +112,8 @@ std::vector<pid_t> children_of(pid_t parent) {
 
 TEST_F(Killed, AChildThatDiesInARepairCostsThatRepairAndNotTheRun) {
   const std::string output = path("out.stl");
-  const pid_t program = start({"stand", APLOMB_FIXTURES "/broken_pushed_through.stl", "--voxel", "1.5mm", "--wall", "3mm",
-                               "--ceiling", "any", "--best-effort", "-q", "-o", output});
+  const pid_t program = start({"stand", APLOMB_FIXTURES "/broken_pushed_through.stl", "--voxel", "1.5mm", "--wall",
+                               "3mm", "--ceiling", "any", "--best-effort", "-q", "-o", output});
   int killed = 0, status = 0;
   while (waitpid(program, &status, WNOHANG) == 0) {
     for (const pid_t child : children_of(program)) killed += kill(child, SIGKILL) == 0;
@@ -146,8 +148,20 @@ class Limits : public Killed {
 };
 
 TEST_F(Limits, TheMemoryAllowedIsKeptTenfoldOverJustOverAndJustUnder) {
-  std::vector<std::string> arguments{"stand", APLOMB_FIXTURES "/seal.stl", "--voxel", "0.6mm", "--wall", "2mm", "--ceiling",
-                                     "any", "--best-effort", "-q", "-o", path("out.3mf"), "--memory", "4GB"};
+  std::vector<std::string> arguments{"stand",
+                                     APLOMB_FIXTURES "/seal.stl",
+                                     "--voxel",
+                                     "0.6mm",
+                                     "--wall",
+                                     "2mm",
+                                     "--ceiling",
+                                     "any",
+                                     "--best-effort",
+                                     "-q",
+                                     "-o",
+                                     path("out.3mf"),
+                                     "--memory",
+                                     "4GB"};
   const double libraries_mb = run_with({"--version"}).first + 25;  // and 10 ms of asking for more
   const auto [whole_mb, code] = run_with(arguments);
   ASSERT_TRUE(code == 0 || code == 3) << code;
@@ -161,6 +175,18 @@ TEST_F(Limits, TheMemoryAllowedIsKeptTenfoldOverJustOverAndJustUnder) {
     EXPECT_FALSE(fs::exists(path("out.3mf")));
   }
   arguments.back() = std::to_string(static_cast<int>(std::max(2.0 * own_mb, own_mb + 100))) + "MB";
+  EXPECT_EQ(run_with(arguments).second, code);
+}
+
+TEST_F(Limits, MemoryThatNobodyEstimatedIsWatchedWhileItIsTaken) {
+  std::vector<std::string> arguments{"validate", APLOMB_FIXTURES "/seal.stl", "--process", "sla", "-q", "--memory", "4GB"};
+  const auto [whole_mb, code] = run_with(arguments);
+  const double own_mb = whole_mb - run_with({"--version"}).first;
+  arguments.back() = std::to_string(static_cast<int>(0.6 * own_mb)) + "MB";
+  const auto [peak_mb, ending] = run_with(arguments);
+  EXPECT_EQ(ending, 5) << "allowed " << arguments.back() << ", takes " << own_mb << " MB";
+  EXPECT_LT(peak_mb, whole_mb - 0.15 * own_mb);
+  arguments.back() = std::to_string(static_cast<int>(1.3 * own_mb)) + "MB";
   EXPECT_EQ(run_with(arguments).second, code);
 }
 
@@ -186,7 +212,8 @@ TEST_F(Limits, TheOutputMayBeTheInputALinkOrALongNameInUnicode) {
   fs::path deep = folder_;
   for (int n = 0; n < 12; ++n) deep /= std::string(200, 'd') + "\xE7\xAB\x8B";  // 2.4 kB of path
   fs::create_directories(deep);
-  const fs::path input = deep / (std::string(200, 'i') + "\xC3\xBC \xF0\x9F\xA6\x92.stl"), output = deep / "\xE7\xAB\x8B .stl";
+  const fs::path input = deep / (std::string(200, 'i') + "\xC3\xBC \xF0\x9F\xA6\x92.stl"),
+                 output = deep / "\xE7\xAB\x8B .stl";
   fs::copy(model, input);
   EXPECT_EQ(run_with(standing(input.string(), output.string())).second, 0);
   EXPECT_TRUE(read_mesh(output).has_value());

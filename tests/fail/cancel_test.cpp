@@ -111,11 +111,13 @@ TEST_P(Cancelled, AtAnyReportARunEndsSoonAndSaysSo) {
 const WholeRun runs[] = {
     {"carving", R"(, "wall_mm": 2.5, "voxel_mm": 1.2, "best_effort": true)", leaning},
     {"ceilings", R"(, "wall_mm": 2.5, "voxel_mm": 1.2, "aim": "light", "best_effort": true)", leaning_ball},
-    {"bend", R"(, "wall_mm": 2.5, "voxel_mm": 1.2, "ceiling": "any", "deform": "auto", "deform_limit_percent": 20, "best_effort": true)",
+    {"bend",
+     R"(, "wall_mm": 2.5, "voxel_mm": 1.2, "ceiling": "any", "deform": "auto", "deform_limit_percent": 20, "best_effort": true)",
      leaning_ball},
     {"holes", R"(, "wall_mm": 2.5, "voxel_mm": 1.2, "process": "sla", "best_effort": true)", leaning},
     {"powder", R"(, "wall_mm": 2.5, "voxel_mm": 1.2, "process": "powder", "best_effort": true)", leaning},
-    {"inserts", R"(, "wall_mm": 2.5, "voxel_mm": 1.2, "ceiling": "any", "inserts": ["penny:2"], "best_effort": true)", leaning},
+    {"inserts", R"(, "wall_mm": 2.5, "voxel_mm": 1.2, "ceiling": "any", "inserts": ["penny:2"], "best_effort": true)",
+     leaning},
     {"ballast", R"(, "best_effort": true)", leaning, false, true},
     {"poses",
      R"(, "wall_mm": 2.5, "voxel_mm": 1.2, "ceiling": "any", "best_effort": true, "poses": [{"stand": {"tip_deg": 2}},
@@ -124,7 +126,7 @@ const WholeRun runs[] = {
     {"repair", R"(, "wall_mm": 3, "voxel_mm": 1.5, "ceiling": "any", "best_effort": true)", open_ball},
     {"rebuild", R"(, "wall_mm": 3, "voxel_mm": 1.5, "ceiling": "any", "best_effort": true)", one_sheet},
     {"elasticity", R"(, "fem": true)", upright, true},
-    {"validation", R"(, "process": "binder")", leaning_ball, true},
+    {"validation", R"(, "process": "binder")", leaning, true},
 };
 
 INSTANTIATE_TEST_SUITE_P(Every, Cancelled, testing::ValuesIn(runs),

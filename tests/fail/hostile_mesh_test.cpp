@@ -58,9 +58,9 @@ TEST(HostileMesh, IndicesOutOfRangeNameTheirLine) {
 
 TEST(HostileMesh, CoordinatesThatAreNoFiniteNumbersNameTheirPlace) {
   const std::string zeros(400, '0');
-  for (const std::string& value : std::vector<std::string>{"nan", "inf", "-inf", "1e400", "1e39", "0x10", "1,5", "--1", "",
-                                                           "+-1", "1" + zeros + "e-1", "1" + zeros + zeros + ".5e-300",
-                                                           "1e9" + zeros, "0." + zeros + "1e99999999999999999999"}) {
+  for (const std::string& value : std::vector<std::string>{
+           "nan", "inf", "-inf", "1e400", "1e39", "0x10", "1,5", "--1", "", "+-1", "1" + zeros + "e-1",
+           "1" + zeros + zeros + ".5e-300", "1e9" + zeros, "0." + zeros + "1e99999999999999999999"}) {
     expect_unusable("v 0 0 0\nv 1 0 " + value + "\nv 0 1 0\nf 1 2 3\n", "a.obj", "line 2");
     expect_unusable("OFF\n3 1 0\n0 0 0\n1 0 " + value + "\n0 1 0\n3 0 1 2\n", "a.off", "line 4");
     expect_unusable("solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 " + value + "\n", "a.stl", "line 4");

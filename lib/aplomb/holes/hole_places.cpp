@@ -53,8 +53,7 @@ class VoidHoles {
 
  private:
   Vec3 inner_point() const {
-    const auto lowest = std::ranges::min_element(surface_.vertices, {}, &Vec3::z);
-    return *lowest;
+    return *std::ranges::min_element(surface_.vertices, {}, &Vec3::z);  // the lowest
   }
 
   /// Seats in a part of the box, from a lattice that does not move with the void; one in a cell of the lattice.

@@ -93,7 +93,11 @@ std::optional<std::vector<Place>> thin_spots(const Thickness& thickness, const d
     }
   }
   std::vector<Place> spots;
-  for (const auto& group : detail::groups_within(points, std::max(limit_mm, 2 * surface.spacing_mm))) {
+  bool goes_on = true;
+  const auto groups = detail::groups_within(points, std::max(limit_mm, 2 * surface.spacing_mm),
+                                            [&] { return goes_on = job.report(0.5, "measure thin walls"); });
+  if (!goes_on) return std::nullopt;
+  for (const auto& group : groups) {
     Place spot;
     spot.measured = std::numeric_limits<double>::infinity();
     double area = 0;
@@ -111,15 +115,19 @@ std::optional<std::vector<Place>> thin_spots(const Thickness& thickness, const d
 }
 
 /// The least that is not below the limit.
-std::optional<Place> least_that_passes(const Thickness& thickness, const std::vector<SurfaceSample>& samples,
-                                       const std::vector<SurfaceDistance::Pinch>& pinches, double limit_mm) {
+Result<std::optional<Place>> least_that_passes(const Thickness& thickness, const std::vector<SurfaceSample>& samples,
+                                               const std::vector<SurfaceDistance::Pinch>& pinches, double limit_mm,
+                                               const Job& job) {
   std::vector<std::uint32_t> order;
   for (std::uint32_t i = 0; i < pinches.size(); ++i)
     if (std::isfinite(pinches[i].radius_mm) && 2 * pinches[i].radius_mm >= limit_mm) order.push_back(i);
   std::ranges::stable_sort(order, {}, [&](std::uint32_t i) { return pinches[i].radius_mm; });
-  for (const std::uint32_t i : order)
-    if (thickness.is_across(samples[i], pinches[i])) return thickness.place(samples[i], pinches[i]);
-  return std::nullopt;
+  for (std::size_t n = 0; n < order.size(); ++n) {
+    if (n % 256 == 0 && !job.report(0.5, "measure thin walls")) return cancelled();
+    const std::uint32_t i = order[n];
+    if (thickness.is_across(samples[i], pinches[i])) return std::optional(thickness.place(samples[i], pinches[i]));
+  }
+  return std::optional<Place>();
 }
 
 }  // namespace
@@ -141,15 +149,16 @@ Result<std::vector<Place>> wall_thin(const PrintedSolid& printed, const Rules& r
     if (!spots) return cancelled();
     if (!spots->empty()) return std::move(*spots);
   }
-  std::optional<Place> least = least_that_passes(thickness, surface.samples, *pinches, limit_mm);
-  while (!least && below < 2 * diagonal) {
+  auto least = least_that_passes(thickness, surface.samples, *pinches, limit_mm, job);
+  while (least && !*least && below < 2 * diagonal) {
     const double above = below;
     below *= 2;
     const auto wider = thickness.measure(surface.samples, stride, below, job.part(0.5, 1));
     if (!wider) return cancelled();
-    least = least_that_passes(thickness, surface.samples, *wider, above);
+    least = least_that_passes(thickness, surface.samples, *wider, above, job);
   }
-  if (least) places.push_back(*least);
+  if (!least) return tl::unexpected(least.error());
+  if (*least) places.push_back(**least);
   return places;
 }
 

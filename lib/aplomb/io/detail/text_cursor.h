@@ -96,8 +96,8 @@ class TextCursor {
   static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
   static bool is_line_end(char c) { return c == '\n' || c == '\r'; }
   bool ends_word(const char* p) const { return p == end_ || is_blank(*p) || is_line_end(*p) || *p == '#'; }
-  /// Of a number that double cannot hold: whether it is too near zero rather than too large. Where its first digit other
-  /// than 0 stands, and its exponent, say how large it is; neither alone does.
+  /// Of a number that double cannot hold: whether it is too near zero rather than too large. Where its first digit
+  /// other than 0 stands, and its exponent, say how large it is; neither alone does.
   static bool too_small(std::string_view number) {
     const auto mark = std::min(number.find_first_of("eE"), number.size());
     const std::string_view digits = number.substr(0, mark);
