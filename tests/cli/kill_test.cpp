@@ -179,7 +179,8 @@ TEST_F(Limits, TheMemoryAllowedIsKeptTenfoldOverJustOverAndJustUnder) {
 }
 
 TEST_F(Limits, MemoryThatNobodyEstimatedIsWatchedWhileItIsTaken) {
-  std::vector<std::string> arguments{"validate", APLOMB_FIXTURES "/seal.stl", "--process", "sla", "-q", "--memory", "4GB"};
+  std::vector<std::string> arguments{"validate", APLOMB_FIXTURES "/seal.stl", "--process", "sla", "-q", "--memory",
+                                     "4GB"};
   const auto [whole_mb, code] = run_with(arguments);
   const double own_mb = whole_mb - run_with({"--version"}).first;
   arguments.back() = std::to_string(static_cast<int>(0.6 * own_mb)) + "MB";

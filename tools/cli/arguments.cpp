@@ -1,7 +1,7 @@
 #include "arguments.h"
 
-#include <algorithm>
 #include <fmt/format.h>
+#include <algorithm>
 
 #include <CLI/CLI.hpp>
 
