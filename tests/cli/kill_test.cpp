@@ -112,8 +112,8 @@ std::vector<pid_t> children_of(pid_t parent) {
 
 TEST_F(Killed, AChildThatDiesInARepairCostsThatRepairAndNotTheRun) {
   const std::string output = path("out.stl");
-  const pid_t program = start({"stand", APLOMB_FIXTURES "/broken_pushed_through.stl", "--voxel", "1.5mm", "--wall",
-                               "3mm", "--ceiling", "any", "--best-effort", "-q", "-o", output});
+  const pid_t program = start({"stand", std::string(APLOMB_FIXTURES) + "/broken_pushed_through.stl", "--voxel", "1.5mm",
+                               "--wall", "3mm", "--ceiling", "any", "--best-effort", "-q", "-o", output});
   int killed = 0, status = 0;
   while (waitpid(program, &status, WNOHANG) == 0) {
     for (const pid_t child : children_of(program)) killed += kill(child, SIGKILL) == 0;
@@ -149,7 +149,7 @@ class Limits : public Killed {
 
 TEST_F(Limits, TheMemoryAllowedIsKeptTenfoldOverJustOverAndJustUnder) {
   std::vector<std::string> arguments{"stand",
-                                     APLOMB_FIXTURES "/seal.stl",
+                                     std::string(APLOMB_FIXTURES) + "/seal.stl",
                                      "--voxel",
                                      "0.6mm",
                                      "--wall",
@@ -179,8 +179,8 @@ TEST_F(Limits, TheMemoryAllowedIsKeptTenfoldOverJustOverAndJustUnder) {
 }
 
 TEST_F(Limits, MemoryThatNobodyEstimatedIsWatchedWhileItIsTaken) {
-  std::vector<std::string> arguments{"validate", APLOMB_FIXTURES "/seal.stl", "--process", "sla", "-q", "--memory",
-                                     "4GB"};
+  std::vector<std::string> arguments{
+      "validate", std::string(APLOMB_FIXTURES) + "/seal.stl", "--process", "sla", "-q", "--memory", "4GB"};
   const auto [whole_mb, code] = run_with(arguments);
   const double own_mb = whole_mb - run_with({"--version"}).first;
   arguments.back() = std::to_string(static_cast<int>(0.6 * own_mb)) + "MB";

@@ -26,7 +26,7 @@ struct WholeRun {
   bool is_validation = false, ballast = false;
 };
 
-void PrintTo(const WholeRun& run, std::ostream* out) { *out << run.name; }
+std::ostream& operator<<(std::ostream& out, const WholeRun& run) { return out << run.name; }
 
 TriangleMesh leaning() { return test::leaning_prism(28, 28, 60, 30); }
 TriangleMesh upright() { return test::box({0, 0, 0}, {30, 30, 60}); }
