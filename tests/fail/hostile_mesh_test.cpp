@@ -57,8 +57,10 @@ TEST(HostileMesh, IndicesOutOfRangeNameTheirLine) {
 }
 
 TEST(HostileMesh, CoordinatesThatAreNoFiniteNumbersNameTheirPlace) {
-  for (const char* bad : {"nan", "inf", "-inf", "1e400", "1e39", "0x10", "1,5", "--1", "", "+-1"}) {
-    const std::string value = bad;
+  const std::string zeros(400, '0');
+  for (const std::string& value : std::vector<std::string>{
+           "nan", "inf", "-inf", "1e400", "1e39", "0x10", "1,5", "--1", "", "+-1", "1" + zeros + "e-1",
+           "1" + zeros + zeros + ".5e-300", "1e9" + zeros, "0." + zeros + "1e99999999999999999999"}) {
     expect_unusable("v 0 0 0\nv 1 0 " + value + "\nv 0 1 0\nf 1 2 3\n", "a.obj", "line 2");
     expect_unusable("OFF\n3 1 0\n0 0 0\n1 0 " + value + "\n0 1 0\n3 0 1 2\n", "a.off", "line 4");
     expect_unusable("solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 " + value + "\n", "a.stl", "line 4");
@@ -75,6 +77,12 @@ TEST(HostileMesh, NumbersTooSmallForDoubleAreZero) {
   ASSERT_TRUE(file);
   EXPECT_EQ(file->objects[0].mesh.vertices[0].z, 0);
   EXPECT_EQ(file->objects[0].mesh.vertices[1].z, 0);
+  const std::string zeros(400, '0');
+  for (const std::string& small : {"0." + zeros + "1", "0." + zeros + "1e20", "." + zeros + "9E+1", "1e-9" + zeros}) {
+    const auto read = read_text("v 0 0 " + small + "\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "a.obj");
+    ASSERT_TRUE(read) << small;
+    EXPECT_EQ(read->objects[0].mesh.vertices[0].z, 0) << small;
+  }
 }
 
 TEST(HostileMesh, AFileCutOffAnywhereIsAnErrorOrAValidMesh) {

@@ -1,6 +1,7 @@
 #include "arguments.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 
 #include <CLI/CLI.hpp>
 
@@ -126,6 +127,8 @@ Parsed parse_arguments(int argc, char** argv) {
     a.given.emplace_back("job", overrides.file.string());
     a.job = std::move(*job);
   }
+  a.job.input.repair.step_memory_mb =
+      std::clamp<std::size_t>(a.job.options.memory_bytes >> 20, 1, a.job.input.repair.step_memory_mb);
   if (const std::string problem = find_problem(a.job); !problem.empty()) return {std::nullopt, usage_error(problem)};
   return {std::move(a), 0};
 }

@@ -23,7 +23,7 @@ std::atomic<bool> was_over_time{false};
 timer_t deadline{};
 
 void end_now(int) {
-  if (has_temp_file.load()) unlink(temp_file.data());
+  remove_temp_file();
   if (was_over_time.load()) {
     constexpr char said[] = "aplomb: the time is over (--time)\n";
     [[maybe_unused]] const ssize_t ignored = write(STDERR_FILENO, said, sizeof said - 1);
@@ -64,6 +64,10 @@ void handle(int signal_number, void (*handler)(int)) {
 }
 
 }  // namespace
+
+void remove_temp_file() {
+  if (has_temp_file.load()) unlink(temp_file.data());
+}
 
 void catch_interrupts(int exit_code) {
   code_at_interrupt = exit_code;

@@ -19,4 +19,7 @@ bool is_over_time();
 /// The temporary file to remove, or an empty path for none; for WriteOptions::on_temp_file.
 void remember_temp_file(const std::filesystem::path& path);
 
+/// What a handler does before it ends the program. Async-signal-safe.
+void remove_temp_file();
+
 }  // namespace aplomb::cli

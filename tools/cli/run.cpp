@@ -21,6 +21,7 @@
 #include "aplomb/report/text.h"
 #include "comparison.h"
 #include "interrupt.h"
+#include "memory_limit.h"
 #include "page.h"
 #include "run_verify.h"
 #include "talk.h"
@@ -255,6 +256,7 @@ Result<void> save_job(const Arguments& a) {
 int run(const Arguments& a) {
   if (const auto time_s = a.time_s ? a.time_s : a.job.time_s; time_s)
     limit_time(*time_s, exit_code(Ending::over_budget));
+  limit_memory(a.job.options.memory_bytes, exit_code(Ending::over_budget));
   if (a.command == Command::verify) {
     ProgressLine progress(!a.quiet, a.is_progress_json);
     return run_verify(a, progress.job());

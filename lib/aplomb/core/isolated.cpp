@@ -50,6 +50,7 @@ void write_all(int file, const char* bytes, std::size_t count) {
 }
 
 void confine(const IsolationLimits& limits, std::size_t parent_bytes) {
+  std::set_new_handler(nullptr);  // the program's own would end the child without a word
 #ifdef __linux__
   prctl(PR_SET_PDEATHSIG, SIGKILL);
 #endif

@@ -53,8 +53,7 @@ class VoidHoles {
 
  private:
   Vec3 inner_point() const {
-    const auto lowest = std::ranges::min_element(surface_.vertices, {}, &Vec3::z);
-    return *lowest;
+    return *std::ranges::min_element(surface_.vertices, {}, &Vec3::z);  // the lowest
   }
 
   /// Seats in a part of the box, from a lattice that does not move with the void; one in a cell of the lattice.
@@ -75,14 +74,15 @@ class VoidHoles {
   }
 
   /// The best of those that can be drilled.
-  std::optional<Hole> first_drillable(std::vector<Channel>& candidates,
-                                      double most_sill = std::numeric_limits<double>::infinity()) const {
+  Result<std::optional<Hole>> first_drillable(std::vector<Channel>& candidates, const Job& job,
+                                              double most_sill = std::numeric_limits<double>::infinity()) const {
     std::ranges::stable_sort(candidates, {}, &Channel::cost_mm);
     for (Channel& candidate : candidates) {
+      if (!job.report(0.7, "choose escape holes")) return cancelled();
       if (std::isfinite(most_sill) && channels_.sill_mm(candidate) > most_sill) continue;
       if (channels_.can_be_drilled(candidate, taken_)) return candidate.hole;
     }
-    return std::nullopt;
+    return std::optional<Hole>();
   }
 
   /// An earlier hole that still does what is asked.
@@ -148,13 +148,15 @@ class VoidHoles {
       slab.min.z = from;
       slab.max.z = std::min(from + channels_.bore_mm(), box_.max.z);
       const bool is_bottom = from == dip.bottom_mm.z;
-      auto found = draining(dips, number, slab, is_bottom ? most_sill : top, spacing);
+      auto found = draining(dips, number, slab, is_bottom ? most_sill : top, spacing, job);
+      if (!found) return tl::unexpected(found.error());
       if (!is_bottom)
-        for (Channel& channel : found) channel.cost_mm = channel.axis_sill_mm();  // the lowest
-      const auto hole = first_drillable(found, is_bottom ? most_sill : top);
-      if (!hole) continue;
-      if (is_bottom) taken_.push_back(*hole);
-      else dead_ends.push_back({dip.bottom_mm, channels_.sill_mm({*hole}) - 0.02});
+        for (Channel& channel : *found) channel.cost_mm = channel.axis_sill_mm();  // the lowest
+      const auto hole = first_drillable(*found, job, is_bottom ? most_sill : top);
+      if (!hole) return tl::unexpected(hole.error());
+      if (!*hole) continue;
+      if (is_bottom) taken_.push_back(**hole);
+      else dead_ends.push_back({dip.bottom_mm, channels_.sill_mm({**hole}) - 0.02});
       return {};
     }
     if (number == 0) dead_ends.push_back({dip.bottom_mm});
@@ -169,10 +171,11 @@ class VoidHoles {
     return wet;
   }
 
-  std::vector<Channel> draining(const Dips& dips, std::uint32_t number, const Box3& slab, double most_sill,
-                                double spacing) const {
+  Result<std::vector<Channel>> draining(const Dips& dips, std::uint32_t number, const Box3& slab, double most_sill,
+                                        double spacing, const Job& job) const {
     std::vector<Channel> found;
     for (const Vec3& seat : seats_in(slab, spacing)) {
+      if (!job.report(0.6, "choose escape holes")) return cancelled();
       if (seat.z - 0.5 * channels_.bore_mm() > most_sill + channels_.bore_mm() || dip_at(dips, seat) != number)
         continue;
       for (const Channel& channel : channels_.channels_from(seat, most_sill))
@@ -191,13 +194,15 @@ class VoidHoles {
       slab.max.z = to;
       slab.min.z = to - bore - (to == box_.max.z ? demand_.place_mm : 0);
       std::vector<Channel> found;
-      for (const Vec3& seat : seats_in(slab, seat_ratio * bore))
+      for (const Vec3& seat : seats_in(slab, seat_ratio * bore)) {
+        if (!job.report(0.9, "choose escape holes")) return cancelled();
         for (const Channel& channel : channels_.channels_from(seat)) found.push_back(channel);
+      }
       for (Channel& channel : found) {
         const double missing = allowed - channel.upper_lip_mm();
         if (missing > 0) channel.cost_mm += 100 * (1 + missing);
       }
-      if (auto hole = first_drillable(found)) return hole;
+      if (auto hole = first_drillable(found, job); !hole || *hole) return hole;
     }
     return std::optional<Hole>();
   }

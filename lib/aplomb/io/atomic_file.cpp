@@ -1,13 +1,17 @@
 #include "aplomb/io/atomic_file.h"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <cerrno>
+#include <charconv>
 #include <chrono>
+#include <ctime>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 namespace aplomb {
@@ -91,6 +95,28 @@ fs::path temp_path_beside(const fs::path& target) {
   return fs::absolute(target).parent_path() / name;
 }
 
+/// The process that made a temporary file of ours; 0 for any other name.
+pid_t maker_of(const std::string& name) {
+  constexpr std::string_view prefix = ".aplomb-";
+  if (!name.starts_with(prefix) || !name.ends_with(".tmp")) return 0;
+  int id = 0;
+  const char *from = name.data() + prefix.size(), *end = name.data() + name.size();
+  const auto [stop, error] = std::from_chars(from, end, id);
+  return error == std::errc() && stop != end && *stop == '-' && id > 0 ? id : 0;
+}
+
+/// Removes what killed runs left in a folder: no such process runs here, nor wrote to it elsewhere within the hour.
+void clear_left_behind(const fs::path& folder) {
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    const pid_t maker = maker_of(entry->path().filename().string());
+    if (maker == 0 || ::kill(maker, 0) == 0 || errno != ESRCH) continue;
+    struct stat status {};
+    if (::lstat(entry->path().c_str(), &status) != 0 || !S_ISREG(status.st_mode)) continue;
+    if (::time(nullptr) - status.st_mtime > 3600) ::unlink(entry->path().c_str());
+  }
+}
+
 Result<void> write_straight(const fs::path& target, std::span<const std::byte> bytes) {
   const Descriptor file(::open(target.c_str(), O_WRONLY | O_CLOEXEC));
   if (file.get() < 0 || !write_all(file.get(), bytes)) return cannot_write(target, reason_of(errno));
@@ -105,6 +131,7 @@ void sync_folder(const fs::path& folder) {
 
 Result<void> write_and_rename(const fs::path& target, const struct stat* existing, std::span<const std::byte> bytes,
                               const TempFileListener& listener) {
+  clear_left_behind(fs::absolute(target).parent_path());
   TempFile temp(temp_path_beside(target), listener);
   Descriptor file(::open(temp.path().c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
   if (file.get() < 0) return cannot_write(target, "no file can be made in its folder: " + reason_of(errno));

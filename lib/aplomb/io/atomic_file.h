@@ -15,7 +15,8 @@ using TempFileListener = std::function<void(const std::filesystem::path& temp_or
 
 /// Writes a whole file so that the target is always old or complete: beside it, fsync, rename.
 /// Follows a symbolic link (what it points to is replaced, the link stays), keeps an existing file's permissions, and
-/// writes straight into what is not a regular file (a pipe, /dev/null). "-" is standard output.
+/// writes straight into what is not a regular file (a pipe, /dev/null). "-" is standard output. Temporary files of runs
+/// that were killed, an hour old, are removed from the folder.
 ///
 /// \return file_system naming the file and the reason (missing or read-only folder, a directory, full disk); then
 ///         neither the target nor the folder has changed.

@@ -79,18 +79,25 @@ class Thickness {
   const SurfaceDistance distance_;
 };
 
-/// The spots of thin samples that are more than slivers, least first.
-std::vector<Place> thin_spots(const Thickness& thickness, const detail::SurfaceSamples& surface,
-                              const std::vector<SurfaceDistance::Pinch>& pinches, double limit_mm) {
+/// The spots of thin samples that are more than slivers, least first. Nothing when the job stops.
+std::optional<std::vector<Place>> thin_spots(const Thickness& thickness, const detail::SurfaceSamples& surface,
+                                             const std::vector<SurfaceDistance::Pinch>& pinches, double limit_mm,
+                                             const Job& job) {
   std::vector<std::uint32_t> thin;
   std::vector<Vec3> points;
-  for (std::uint32_t i = 0; i < pinches.size(); ++i)
+  for (std::uint32_t i = 0; i < pinches.size(); ++i) {
+    if (i % 1024 == 0 && !job.report(0.5, "measure thin walls")) return std::nullopt;
     if (2 * pinches[i].radius_mm < limit_mm && thickness.is_across(surface.samples[i], pinches[i])) {
       thin.push_back(i);
       points.push_back(surface.samples[i].point_mm);
     }
+  }
   std::vector<Place> spots;
-  for (const auto& group : detail::groups_within(points, std::max(limit_mm, 2 * surface.spacing_mm))) {
+  bool goes_on = true;
+  const auto groups = detail::groups_within(points, std::max(limit_mm, 2 * surface.spacing_mm),
+                                            [&] { return goes_on = job.report(0.5, "measure thin walls"); });
+  if (!goes_on) return std::nullopt;
+  for (const auto& group : groups) {
     Place spot;
     spot.measured = std::numeric_limits<double>::infinity();
     double area = 0;
@@ -108,15 +115,19 @@ std::vector<Place> thin_spots(const Thickness& thickness, const detail::SurfaceS
 }
 
 /// The least that is not below the limit.
-std::optional<Place> least_that_passes(const Thickness& thickness, const std::vector<SurfaceSample>& samples,
-                                       const std::vector<SurfaceDistance::Pinch>& pinches, double limit_mm) {
+Result<std::optional<Place>> least_that_passes(const Thickness& thickness, const std::vector<SurfaceSample>& samples,
+                                               const std::vector<SurfaceDistance::Pinch>& pinches, double limit_mm,
+                                               const Job& job) {
   std::vector<std::uint32_t> order;
   for (std::uint32_t i = 0; i < pinches.size(); ++i)
     if (std::isfinite(pinches[i].radius_mm) && 2 * pinches[i].radius_mm >= limit_mm) order.push_back(i);
   std::ranges::stable_sort(order, {}, [&](std::uint32_t i) { return pinches[i].radius_mm; });
-  for (const std::uint32_t i : order)
-    if (thickness.is_across(samples[i], pinches[i])) return thickness.place(samples[i], pinches[i]);
-  return std::nullopt;
+  for (std::size_t n = 0; n < order.size(); ++n) {
+    if (n % 256 == 0 && !job.report(0.5, "measure thin walls")) return cancelled();
+    const std::uint32_t i = order[n];
+    if (thickness.is_across(samples[i], pinches[i])) return std::optional(thickness.place(samples[i], pinches[i]));
+  }
+  return std::optional<Place>();
 }
 
 }  // namespace
@@ -133,17 +144,21 @@ Result<std::vector<Place>> wall_thin(const PrintedSolid& printed, const Rules& r
   double below = 2 * limit_mm;
   const auto pinches = thickness.measure(surface.samples, 1, below, job.part(0, 0.5));
   if (!pinches) return cancelled();
-  if (*limit > 0) places = thin_spots(thickness, surface, *pinches, limit_mm);
-  if (!places.empty()) return places;
-  std::optional<Place> least = least_that_passes(thickness, surface.samples, *pinches, limit_mm);
-  while (!least && below < 2 * diagonal) {
+  if (*limit > 0) {
+    auto spots = thin_spots(thickness, surface, *pinches, limit_mm, job);
+    if (!spots) return cancelled();
+    if (!spots->empty()) return std::move(*spots);
+  }
+  auto least = least_that_passes(thickness, surface.samples, *pinches, limit_mm, job);
+  while (least && !*least && below < 2 * diagonal) {
     const double above = below;
     below *= 2;
     const auto wider = thickness.measure(surface.samples, stride, below, job.part(0.5, 1));
     if (!wider) return cancelled();
-    least = least_that_passes(thickness, surface.samples, *wider, above);
+    least = least_that_passes(thickness, surface.samples, *wider, above, job);
   }
-  if (least) places.push_back(*least);
+  if (!least) return tl::unexpected(least.error());
+  if (*least) places.push_back(**least);
   return places;
 }
 

@@ -13,18 +13,51 @@ struct Delete {
   void operator()(glp_prob* problem) const { glp_delete_prob(problem); }
 };
 
+/// GLPK ends the program where one of its own checks fails or memory runs out, unless it is jumped out of.
+void jump_out(void* to) { std::longjmp(*static_cast<std::jmp_buf*>(to), 1); }
+
+/// Nothing that it says is for our standard output.
+int swallow(void*, const char*) { return 1; }
+
+/// Calls `step(data)`, which holds nothing that wants a destructor. \return False where GLPK gave up: then all that it
+/// holds in this thread is gone.
+bool guarded(void (*step)(void*), void* data) {
+  std::jmp_buf here;
+  if (setjmp(here) != 0) {
+    glp_error_hook(nullptr, nullptr);
+    glp_free_env();
+    return false;
+  }
+  glp_error_hook(jump_out, &here);
+  step(data);
+  glp_error_hook(nullptr, nullptr);
+  return true;
+}
+
 int bounds(double lower, double upper) {
   if (lower == -unbounded) return upper == unbounded ? GLP_FR : GLP_UP;
   return upper == unbounded ? GLP_LO : GLP_DB;
 }
 
-void load(glp_prob* problem, const LinearProgram& program) {
+/// What GLPK is called with and answers, in plain arrays that live outside of it.
+struct Work {
+  const LinearProgram& program;
+  std::vector<int> indices;  // GLPK counts from 1
+  std::vector<double> values;
+  int method = GLP_DUALP;
+  glp_prob* problem = nullptr;
+  bool is_solved = false;
+};
+
+void load(Work& work) {
+  const LinearProgram& program = work.program;
+  glp_prob* problem = work.problem = glp_create_prob();
   const int columns = static_cast<int>(program.variables.size()), rows = static_cast<int>(program.rows.size());
   glp_set_obj_dir(problem, GLP_MAX);
   glp_add_cols(problem, columns);
   glp_add_rows(problem, rows);
-  std::vector<int> indices(columns + 1);  // GLPK counts from 1
-  std::vector<double> values(columns + 1);
+  auto& indices = work.indices;
+  auto& values = work.values;
   for (int c = 1; c <= columns; ++c) {
     const LinearProgram::Variable& variable = program.variables[c - 1];
     glp_set_obj_coef(problem, c, variable.objective);
@@ -39,66 +72,47 @@ void load(glp_prob* problem, const LinearProgram& program) {
   }
 }
 
-/// Ends the simplex method where an assertion of GLPK fails, which else ends the process.
-void leave(void* ended) { std::longjmp(*static_cast<std::jmp_buf*>(ended), 1); }
-
-int say_nothing(void*, const char*) { return 1; }
-
-enum class Ended { solved, unsolved, failed };
-
-/// One try. Where it failed, GLPK's whole environment is gone, and the problem with it. Nothing here has a destructor.
-Ended tried(glp_prob* problem, const glp_smcp& parameters) {
-  std::jmp_buf failed;
-  if (setjmp(failed) != 0) {
-    glp_free_env();
-    return Ended::failed;
-  }
-  glp_error_hook(leave, &failed);
-  const bool is_solved = glp_simplex(problem, &parameters) == 0 && glp_get_status(problem) == GLP_OPT;
-  glp_error_hook(nullptr, nullptr);
-  return is_solved ? Ended::solved : Ended::unsolved;
-}
-
-Ended solved(glp_prob* problem, int method) {
+bool solved(const Work& work, double tolerance) {
   glp_smcp parameters;
   glp_init_smcp(&parameters);
   parameters.msg_lev = GLP_MSG_OFF;
-  parameters.meth = method;
-  auto ended = Ended::unsolved;
-  for (const double tolerance : {1e-10, 1e-9, 1e-7}) {
-    parameters.tol_bnd = tolerance;
-    parameters.tol_dj = tolerance;
-    ended = tried(problem, parameters);
-    if (ended != Ended::unsolved) break;
-    if (tolerance > 1e-10) continue;
-    glp_scale_prob(problem, GLP_SF_AUTO);  // columns that are nearly the same, mostly
-    glp_adv_basis(problem, 0);
-  }
-  return ended;
+  parameters.meth = work.method;
+  parameters.tol_bnd = tolerance;
+  parameters.tol_dj = tolerance;
+  return glp_simplex(work.problem, &parameters) == 0 && glp_get_status(work.problem) == GLP_OPT;
 }
 
-LinearSolution solution_of(glp_prob* problem, const LinearProgram& program) {
+/// Solves what is loaded; scaled, where columns are nearly the same.
+void load_and_solve(void* data) {
+  Work& work = *static_cast<Work*>(data);
+  load(work);
+  work.is_solved = solved(work, 1e-10);
+  if (work.is_solved) return;
+  glp_scale_prob(work.problem, GLP_SF_AUTO);
+  glp_adv_basis(work.problem, 0);
+  work.is_solved = solved(work, 1e-9) || solved(work, 1e-7);
+}
+
+LinearSolution solution_of(const Work& work) {
   LinearSolution solution;
-  solution.value = glp_get_obj_val(problem);
-  for (std::size_t c = 0; c < program.variables.size(); ++c)
-    solution.x.push_back(glp_get_col_prim(problem, static_cast<int>(c) + 1));
-  for (std::size_t r = 0; r < program.rows.size(); ++r)
-    solution.duals.push_back(glp_get_row_dual(problem, static_cast<int>(r) + 1));
+  solution.value = glp_get_obj_val(work.problem);
+  for (std::size_t c = 0; c < work.program.variables.size(); ++c)
+    solution.x.push_back(glp_get_col_prim(work.problem, static_cast<int>(c) + 1));
+  for (std::size_t r = 0; r < work.program.rows.size(); ++r)
+    solution.duals.push_back(glp_get_row_dual(work.problem, static_cast<int>(r) + 1));
   return solution;
 }
 
 }  // namespace
 
 std::optional<LinearSolution> solve(const LinearProgram& program) {
+  const std::size_t entries = program.variables.size() + 1;
   for (const int method : {GLP_DUALP, GLP_PRIMAL}) {  // DUALP: the primal method where the dual one gives up
-    glp_term_out(GLP_OFF);
-    glp_term_hook(say_nothing, nullptr);  // of assertions, too
-    std::unique_ptr<glp_prob, Delete> problem(glp_create_prob());
-    load(problem.get(), program);
-    const Ended ended = solved(problem.get(), method);
-    if (ended == Ended::solved) return solution_of(problem.get(), program);
-    if (ended == Ended::unsolved) return std::nullopt;
-    static_cast<void>(problem.release());
+    glp_term_hook(swallow, nullptr);
+    Work work{program, std::vector<int>(entries), std::vector<double>(entries), method};
+    if (!guarded(load_and_solve, &work)) continue;
+    const std::unique_ptr<glp_prob, Delete> problem(work.problem);
+    return work.is_solved ? std::optional(solution_of(work)) : std::nullopt;
   }
   return std::nullopt;
 }

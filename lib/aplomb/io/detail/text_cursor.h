@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
@@ -95,10 +96,18 @@ class TextCursor {
   static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
   static bool is_line_end(char c) { return c == '\n' || c == '\r'; }
   bool ends_word(const char* p) const { return p == end_ || is_blank(*p) || is_line_end(*p) || *p == '#'; }
-  /// Of a number that double cannot hold: whether it is too near zero rather than too large.
+  /// Of a number that double cannot hold: whether it is too near zero rather than too large. Where its first digit
+  /// other than 0 stands, and its exponent, say how large it is; neither alone does.
   static bool too_small(std::string_view number) {
-    if (const auto exponent = number.find_first_of("eE"); exponent != number.npos) return number[exponent + 1] == '-';
-    return number.find_first_of("123456789") > number.find('.');
+    const auto mark = std::min(number.find_first_of("eE"), number.size());
+    const std::string_view digits = number.substr(0, mark);
+    const auto first = digits.find_first_of("123456789"), point = std::min(digits.find('.'), digits.size());
+    if (first == digits.npos) return true;
+    double exponent = 0;  // of any length
+    for (const char c : number.substr(mark))
+      if (c >= '0' && c <= '9') exponent = 10 * exponent + (c - '0');
+    if (number.substr(mark).find('-') != number.npos) exponent = -exponent;
+    return static_cast<double>(point) - static_cast<double>(first) + exponent < 0;
   }
   void skip_blanks() {
     while (at_ != end_) {

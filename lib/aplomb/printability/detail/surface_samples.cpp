@@ -73,10 +73,12 @@ SurfaceSamples sample_surface(const TriangleMesh& mesh, double spacing_mm, std::
   return out;
 }
 
-std::vector<std::vector<std::uint32_t>> groups_within(const std::vector<Vec3>& points, double reach_mm) {
+std::vector<std::vector<std::uint32_t>> groups_within(const std::vector<Vec3>& points, double reach_mm,
+                                                      const std::function<bool()>& goes_on) {
   std::unordered_map<Cell, std::vector<std::uint32_t>, CellHash> cells;
   DisjointSets sets(points.size());
   for (std::uint32_t i = 0; i < points.size(); ++i) {
+    if (i % 1024 == 0 && goes_on && !goes_on()) return {};
     const Cell home = cell_of(points[i], reach_mm);
     for (int n = 0; n < 27; ++n) {
       const Cell near{{home.index[0] + n / 9 - 1, home.index[1] + n / 3 % 3 - 1, home.index[2] + n % 3 - 1}};

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "aplomb/mesh/triangle_mesh.h"
@@ -27,7 +28,9 @@ struct SurfaceSamples {
 SurfaceSamples sample_surface(const TriangleMesh& mesh, double spacing_mm, std::size_t at_most);
 
 /// The numbers of points that hang together when those within `reach_mm` are joined: each group ascending, groups in
-/// the order of their first points. \par Cost  O(points) while few are much nearer together than the reach.
-std::vector<std::vector<std::uint32_t>> groups_within(const std::vector<Vec3>& points, double reach_mm);
+/// the order of their first points. No groups where `goes_on`, asked now and then, says no. \par Cost  O(points) while
+/// few are much nearer together than the reach.
+std::vector<std::vector<std::uint32_t>> groups_within(const std::vector<Vec3>& points, double reach_mm,
+                                                      const std::function<bool()>& goes_on = {});
 
 }  // namespace aplomb::detail
