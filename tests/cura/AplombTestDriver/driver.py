@@ -248,6 +248,7 @@ class Driver(Extension):
         self.see_verdict("of_group")
 
     def clear(self):
+        Selection.clear()
         for node in self._app.getController().getScene().getRoot().getChildren()[:]:
             if node.callDecoration("isSliceable") or node.callDecoration("isGroup"):
                 node.setParent(None)
