@@ -195,6 +195,14 @@ Result<StandRun> finish(StandRun run, const Input& shaped, std::optional<Attempt
   return run;
 }
 
+/// A run on what stands by itself.
+StandRun left_as_it_is(StandRun run, const Input& input, const StandOptions& options) {
+  run.report.outcome = Outcome::already_stands;
+  if (!options.inserts.empty()) run.report.hints.emplace_back("it stands by itself: no insert was put in");
+  run.shell = as_it_came(input);
+  return run;
+}
+
 }  // namespace
 
 Result<StandRun> stand(const Input& input, const StandOptions& options, const Job& job, const StageViewer& view) {
@@ -209,12 +217,8 @@ Result<StandRun> stand(const Input& input, const StandOptions& options, const Jo
   Report& report = run.report;
   StageClock clock(report.stage_seconds);
   const bool is_to_move = !options.reshape.regions.handles.empty();
-  if (all_hold(report) && !is_to_move && options.aim == CarveAim::least) {
-    report.outcome = Outcome::already_stands;
-    if (!options.inserts.empty()) report.hints.emplace_back("it stands by itself: no insert was put in");
-    run.shell = as_it_came(input);
-    return run;
-  }
+  if (all_hold(report) && !is_to_move && options.aim == CarveAim::least)
+    return left_as_it_is(std::move(run), input, options);
 
   std::optional<Ballast> ballast;
   std::optional<JointProblem> joint;
