@@ -40,9 +40,11 @@ class Extension:
 
 def import_extension():
     """Aplomb.extension, with empty stand-ins for the modules of Cura that it imports."""
-    for name in ("UM", "UM.Application", "UM.Extension", "UM.Logger", "UM.Message", "UM.Operations", "UM.Operations.GroupedOperation",
-                 "UM.Operations.Operation", "UM.Mesh", "UM.Mesh.MeshData", "UM.Scene", "UM.Scene.Iterator",
-                 "UM.Scene.Iterator.DepthFirstIterator", "UM.Scene.Selection", "UM.Job"):
+    for name in ("UM", "UM.Application", "UM.Extension", "UM.Logger", "UM.Message", "UM.Operations", "UM.Operations.AddSceneNodeOperation",
+                 "UM.Operations.GroupedOperation", "UM.Operations.Operation", "UM.Operations.RemoveSceneNodeOperation", "UM.Mesh",
+                 "UM.Mesh.MeshData", "UM.Scene", "UM.Scene.Iterator", "UM.Scene.Iterator.DepthFirstIterator", "UM.Scene.Selection",
+                 "UM.Settings", "UM.Settings.SettingInstance", "UM.Job", "cura", "cura.Scene", "cura.Scene.BuildPlateDecorator",
+                 "cura.Scene.CuraSceneNode", "cura.Scene.SliceableObjectDecorator"):
         module = sys.modules[name] = types.ModuleType(name)
         setattr(module, name.rpartition(".")[2], type(name.rpartition(".")[2], (), {}))
     sys.modules["UM.Extension"].Extension = Extension
