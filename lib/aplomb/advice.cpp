@@ -38,7 +38,31 @@ std::string half_wall_text(double t, const JointProblem& joint) {
   return t >= 0 ? "meet every pose" : "still not meet every pose";
 }
 
+std::string would_hold(BoundOf bound_of, double bound_deg) {
+  switch (bound_of) {
+    case BoundOf::tip:
+      return fmt::format("it would stand: up to {:.1f} degrees", bound_deg);
+    case BoundOf::tilt:
+      return fmt::format("it would hang as asked: {:.1f} degrees from level at best", bound_deg);
+    case BoundOf::surplus:
+      break;
+  }
+  return "it would hold in every pose";
+}
+
 }  // namespace
+
+void add_ceiling_hints(Report& report, bool reaches) {
+  const auto& ceiling = report.carving->ceiling;
+  if (!ceiling) return;
+  if (ceiling->left > 0)
+    report.hints.push_back(
+        fmt::format("not all ceilings of the voids print as they are: {} left (see the judgement)",
+                    ceiling->left == 1 ? "1 place is" : fmt::format("{} places are", ceiling->left)));
+  if (ceiling->reached_without && !reaches)
+    report.hints.push_back(fmt::format("with ceilings as they come (--ceiling any) {}",
+                                       would_hold(report.carving->bound_of, ceiling->bound_rad / degree)));
+}
 
 void note_loose_attachments(Report& report, const TriangleMesh& mesh) {
   for (const PoseReport& entry : report.poses)

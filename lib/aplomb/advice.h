@@ -14,6 +14,9 @@ namespace aplomb {
 void add_advice(Report& report, const Input& input, const JointProblem& joint, const StandOptions& options,
                 const Job& job);
 
+/// Adds what ceilings that print left undone; `reaches`: whether it holds with them.
+void add_ceiling_hints(Report& report, bool reaches);
+
 /// Adds a hint for every point to hang from that is off the model.
 void note_loose_attachments(Report& report, const TriangleMesh& mesh);
 

@@ -6,7 +6,6 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "aplomb/advice.h"
 #include "aplomb/attempt.h"
@@ -92,32 +91,6 @@ Result<StandRun> finish_ballast(StandRun run, const Input& input, const Ballast&
   return run;
 }
 
-std::string would_hold(BoundOf bound_of, double bound_deg) {
-  switch (bound_of) {
-    case BoundOf::tip:
-      return fmt::format("it would stand: up to {:.1f} degrees", bound_deg);
-    case BoundOf::tilt:
-      return fmt::format("it would hang as asked: {:.1f} degrees from level at best", bound_deg);
-    case BoundOf::surplus:
-      break;
-  }
-  return "it would hold in every pose";
-}
-
-/// What ceilings that print left undone.
-void add_ceiling_hints(Report& report, const Attempt& made) {
-  const auto& ceiling = report.carving->ceiling;
-  if (!ceiling) return;
-  if (ceiling->left > 0)
-    report.hints.push_back(
-        fmt::format("not all ceilings of the voids print as they are: {} left (see the judgement)",
-                    ceiling->left == 1 ? "1 place is" : fmt::format("{} places are", ceiling->left)));
-  if (ceiling->reached_without && !made.carving.reaches)
-    report.hints.push_back(
-        fmt::format("with ceilings as they come (--ceiling any) {}",
-                    would_hold(report.carving->bound_of, ceiling->bound_rad * 180 / std::numbers::pi)));
-}
-
 /// The judge sees the print as it lies on the plate.
 JudgeOptions judge_options(const StandOptions& options) {
   JudgeOptions judging = options.judge;
@@ -180,7 +153,7 @@ Result<StandRun> finish(StandRun run, const Input& shaped, std::optional<Attempt
   if (made) {
     report.carving = carving_figures(made->carving, shaped, made->joint, options);
     report.carving->ceiling = made->ceiling;
-    add_ceiling_hints(report, *made);
+    add_ceiling_hints(report, made->carving.reaches);
     run.shell = std::move(made->shell);
     take_holes(run, shaped, *made);
     run.carving = std::move(made->carving);

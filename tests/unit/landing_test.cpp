@@ -107,6 +107,28 @@ TEST(Landings, AgreeWithDirectionsDrawnAtRandom) {
   }
 }
 
+TEST(Landings, AreTheSameToTheBitInWhateverOrderTheVerticesCome) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> between(-1, 1);
+  TriangleMesh scattered = test::sphere({}, 20, 3);
+  for (Vec3& v : scattered.vertices) v = (1 + 0.2 * between(random)) * v;
+  for (const TriangleMesh& mesh :
+       {scattered, test::box({1, 2, 3}, {21, 32, 53}), test::leaning_prism(28, 20, 60, 30)}) {
+    const Moments mass = moments(mesh);
+    const std::vector<Landing> expected = landings(mesh, mass, 0.01).value();
+    for (int round = 0; round < 20; ++round) {
+      TriangleMesh shuffled = mesh;  // the hull asks for the vertices alone
+      std::shuffle(shuffled.vertices.begin(), shuffled.vertices.end(), random);
+      const std::vector<Landing> found = landings(shuffled, mass, 0.01).value();
+      ASSERT_EQ(found.size(), expected.size());
+      for (std::size_t i = 0; i < found.size(); ++i) {
+        EXPECT_EQ(found[i].chance, expected[i].chance);
+        EXPECT_EQ(found[i].face.up, expected[i].face.up);
+      }
+    }
+  }
+}
+
 TEST(Landings, OfAFlatMeshAreRefused) {
   TriangleMesh flat;
   flat.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};

@@ -65,32 +65,38 @@ std::vector<std::size_t> faces_of_facets(const TriangleMesh& hull, const EdgeOwn
     if (other == owners.end()) continue;
     const Vec3 n = doubled_area(corners_of(hull, hull.triangles[facet]));
     const Vec3 m = doubled_area(corners_of(hull, hull.triangles[other->second]));
-    if (norm(cross(n, m)) <= in_one_plane * norm(n) * norm(m)) root[find(facet)] = find(other->second);
+    if (norm(cross(n, m)) <= in_one_plane * norm(n) * norm(m)) {
+      const auto [first, second] = std::minmax({find(facet), find(other->second)});
+      root[second] = first;
+    }
   }
   for (std::size_t i = 0; i < root.size(); ++i) root[i] = find(i);
   return root;
+}
+
+/// By its edges alone: the same whichever way its corners were split into triangles.
+void measure(Face& face, Vec3 com_mm) {
+  for (const FaceEdge& edge : face.edges) {
+    const std::array corners{face.edges.front().from_mm, edge.from_mm, edge.to_mm};
+    face.outward += doubled_area(corners);
+    face.chance += solid_angle(corners, com_mm) / (4 * std::numbers::pi);
+  }
+  if (!(squared_norm(face.outward) > 0)) return;
+  face.outward = normalized(face.outward);
+  face.com_height_mm = dot(face.outward, face.edges.front().from_mm - com_mm);
 }
 
 std::vector<Face> faces_of(const TriangleMesh& hull, Vec3 com_mm) {
   const EdgeOwners owners = owners_of_edges(hull);
   const std::vector<std::size_t> face_of = faces_of_facets(hull, owners);
   std::vector<Face> faces(hull.triangles.size());  // those of roots are used
-  for (std::size_t i = 0; i < face_of.size(); ++i) {
-    const auto corners = corners_of(hull, hull.triangles[i]);
-    faces[face_of[i]].outward += doubled_area(corners);
-    faces[face_of[i]].chance += solid_angle(corners, com_mm) / (4 * std::numbers::pi);
-  }
   for (const auto& [edge, facet] : owners) {
     const auto other = owners.find({edge.second, edge.first});
     if (other == owners.end() || face_of[other->second] == face_of[facet]) continue;
     faces[face_of[facet]].edges.push_back(
         {hull.vertices[edge.first], hull.vertices[edge.second], face_of[other->second]});
   }
-  for (Face& face : faces)
-    if (!face.edges.empty() && squared_norm(face.outward) > 0) {
-      face.outward = normalized(face.outward);
-      face.com_height_mm = dot(face.outward, face.edges.front().from_mm - com_mm);
-    }
+  for (Face& face : faces) measure(face, com_mm);
   return faces;
 }
 
