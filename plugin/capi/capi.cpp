@@ -1,4 +1,5 @@
 #include <chrono>
+#include <condition_variable>
 #include <memory>
 #include <mutex>
 #include <new>
@@ -28,7 +29,10 @@ static_assert(sizeof(aplomb_mesh) == 48 && sizeof(aplomb_listener) == 24,
 constexpr const char* no_result = "there is no result: memory ran out, or none was asked for";
 constexpr std::chrono::milliseconds patience{50};  // between two questions to a listener that waits
 
-std::timed_mutex turn;  // ThreadLimit is the process's, and what runs in a forked child wants no neighbours
+// ThreadLimit is the process's, and what runs in a forked child wants no neighbours.
+std::mutex turn_mutex;
+std::condition_variable turn_ended;
+bool is_turn_taken = false;
 thread_local bool is_working = false;
 
 /// One run of this thread; waits until no other thread has one.
@@ -38,18 +42,27 @@ class Turn {
   static Result<std::unique_ptr<Turn>> take(const Job& job) {
     if (is_working)
       return fail(ErrorCode::invalid_option, "a listener called a working call of the library: it may not");
-    std::unique_lock lock(turn, std::defer_lock);
-    while (!lock.try_lock_for(patience))
+    std::unique_lock lock(turn_mutex);
+    while (!turn_ended.wait_for(lock, patience, [] { return !is_turn_taken; })) {
+      lock.unlock();  // a listener may take its time
       if (!job.report(0, "wait")) return cancelled();
-    return std::unique_ptr<Turn>(new Turn(std::move(lock)));
+      lock.lock();
+    }
+    return std::unique_ptr<Turn>(new Turn());
   }
-  ~Turn() { is_working = false; }
+  ~Turn() {
+    is_working = false;
+    {
+      const std::lock_guard lock(turn_mutex);
+      is_turn_taken = false;
+    }
+    turn_ended.notify_one();
+  }
   Turn(const Turn&) = delete;
   Turn& operator=(const Turn&) = delete;
 
  private:
-  explicit Turn(std::unique_lock<std::timed_mutex> lock) : lock_(std::move(lock)) { is_working = true; }
-  std::unique_lock<std::timed_mutex> lock_;
+  Turn() { is_working = is_turn_taken = true; }
 };
 
 Result<Job> job_of(const aplomb_listener* listener) {

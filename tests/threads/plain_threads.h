@@ -27,9 +27,12 @@ void run_on_threads(std::size_t count, const Run& run) {
     return;
   }
   std::atomic<std::size_t> next{0};
+  const auto mine = [&] {
+    return next.fetch_add(1, std::memory_order_relaxed);
+  };  // orders nothing else: it would hide races
   const auto work = [&] {
     is_plain_thread = true;
-    for (std::size_t n = next++; n < count; n = next++) run(n);
+    for (std::size_t n = mine(); n < count; n = mine()) run(n);
   };
   std::vector<std::thread> threads;
   for (std::size_t n = 0; n < plain_threads; ++n) threads.emplace_back(work);
