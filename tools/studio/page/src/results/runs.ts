@@ -1,0 +1,92 @@
+import type {DocumentStore} from '../state/document';
+import {type Client, isAbort} from '../transport/client';
+import type {MeshData} from '../transport/frames';
+import {goesOn} from './conductor';
+import type {Judgement, Report} from './report';
+import {type Busy, type ResultsStore, type StandResult, keyOf} from './results';
+
+/** The two that take their time: making it stand, and judging how it prints. One at a time. */
+export class Runs {
+  #running: AbortController | null = null;
+
+  constructor(private readonly client: Client, private readonly documents: DocumentStore,
+              private readonly results: ResultsStore, private readonly failed: (error: unknown) => void) {}
+
+  get busy(): boolean {
+    return this.#running !== null;
+  }
+
+  cancel(): void {
+    this.#running?.abort();
+  }
+
+  stand(): Promise<void> {
+    return this.#run('stand', 'Beginning', (signal) => this.#stand(signal));
+  }
+
+  validate(of: 'model' | 'result'): Promise<void> {
+    return this.#run('validate', 'Judging', (signal) => this.#validate(of, signal));
+  }
+
+  async #run(what: Busy['what'], stage: string, work: (signal: AbortSignal) => Promise<void>): Promise<void> {
+    if (!this.documents.doc.model || this.#running) return;
+    const running = new AbortController();
+    this.#running = running;
+    this.results.patch({busy: {what, fraction: 0, stage}, notice: null});
+    try {
+      await work(running.signal);
+    } catch (error) {
+      if (!isAbort(error)) this.failed(error);
+    } finally {
+      this.#running = null;
+      if (this.results.value.busy?.what === what) this.results.patch({busy: null});
+    }
+  }
+
+  #progress(what: Busy['what'], message: {readonly [key: string]: unknown}): void {
+    this.results.patch({busy: {what, fraction: Number(message.fraction), stage: String(message.stage)}});
+  }
+
+  async #stand(signal: AbortSignal): Promise<void> {
+    const doc = this.documents.doc, key = keyOf(doc), voids: MeshData[] = [];
+    let made: Pick<StandResult, 'report' | 'message'> | null = null;
+    let outside: MeshData | null = null, dense: MeshData | null = null;
+    for await (const frame of this.client.stream('/api/stand', {model: doc.model?.id, job: doc.job}, signal)) {
+      if (frame.kind === 'mesh' && frame.mesh.name === 'outside') outside = outside ? joined(outside, frame.mesh) : frame.mesh;
+      if (frame.kind === 'mesh' && frame.mesh.name === 'void') voids.push(frame.mesh);
+      if (frame.kind === 'mesh' && frame.mesh.name === 'dense') dense = frame.mesh;
+      if (frame.kind !== 'json') continue;
+      if (!goesOn(frame.message)) return;
+      if (frame.message.type === 'progress') this.#progress('stand', frame.message);
+      if (frame.message.type === 'report')
+        made = {report: frame.message.report as Report, message: String(frame.message.message)};
+      if (frame.message.type !== 'ended') continue;
+      const code = Number(frame.message.code), sentence = String(frame.message.message ?? '');
+      if (made) this.results.patch({stand: {key, ...made, outside, voids, dense, code}});
+      if (code !== 0) this.results.patch({notice: {tone: 'error', sentence}});
+    }
+  }
+
+  async #validate(of: 'model' | 'result', signal: AbortSignal): Promise<void> {
+    const doc = this.documents.doc;
+    for await (const frame of this.client.stream('/api/validate', {model: doc.model?.id, job: doc.job, of}, signal)) {
+      if (frame.kind !== 'json') continue;
+      if (!goesOn(frame.message)) return;
+      if (frame.message.type === 'progress') this.#progress('validate', frame.message);
+      if (frame.message.type === 'judgement')
+        this.results.patch({judgement: {key: keyOf(doc), of, judgement: frame.message.judgement as Judgement}});
+    }
+  }
+}
+
+/** Two surfaces as one. */
+function joined(a: MeshData, b: MeshData): MeshData {
+  const shift = a.positions.length / 3;
+  const positions = new Float32Array(a.positions.length + b.positions.length);
+  positions.set(a.positions);
+  positions.set(b.positions, a.positions.length);
+  const triangles = new Uint32Array(a.triangles.length + b.triangles.length);
+  triangles.set(a.triangles);
+  triangles.set(b.triangles.map((vertex) => vertex + shift), a.triangles.length);
+  return {name: a.name, positions, triangles};
+}
