@@ -25,11 +25,17 @@ std::optional<double> t_with_half_wall(const Input& input, const JointProblem& j
   return bound_t ? std::optional(*bound_t) : std::nullopt;
 }
 
-std::string half_wall_text(double t, const JointProblem& joint, const StandOptions& options) {
-  const double angle_deg = std::atan(t) / degree;
-  if (joint.is_surplus) return t >= 0 ? "meet every pose" : "still not meet every pose";
-  if (options.poses.front().hanging()) return fmt::format("come to about {:.1f} degrees from level", -angle_deg);
-  return fmt::format("reach about {:.1f} degrees", angle_deg);
+std::string half_wall_text(double t, const JointProblem& joint) {
+  const double angle_deg = joint.angle_rad(t) / degree;
+  switch (joint.bound_of) {
+    case BoundOf::tip:
+      return fmt::format("reach about {:.1f} degrees", angle_deg);
+    case BoundOf::tilt:
+      return fmt::format("come to about {:.1f} degrees from level", angle_deg);
+    case BoundOf::surplus:
+      break;
+  }
+  return t >= 0 ? "meet every pose" : "still not meet every pose";
 }
 
 }  // namespace
@@ -48,7 +54,7 @@ void add_advice(Report& report, const Input& input, const JointProblem& joint, c
   if (const auto t = t_with_half_wall(input, joint, options, job))
     report.hints.push_back(
         fmt::format("with a wall of {:.3g} mm, or printed twice as high with the wall as it is, carving could {}",
-                    options.wall_mm / 2, half_wall_text(*t, joint, options)));
+                    options.wall_mm / 2, half_wall_text(*t, joint)));
   if (report.after && report.after->pedestal)
     report.hints.push_back(fmt::format("on a round pedestal {:.3g} mm across and {:.3g} mm thick it would stand",
                                        2 * report.after->pedestal->radius_mm, report.after->pedestal->thickness_mm));

@@ -91,15 +91,13 @@ std::vector<Region> printed_body(const PredictedPrint& print, const StandOptions
 }
 
 BallastFigures ballast_figures(const Ballast& ballast, const JointProblem& joint, const StandOptions& options) {
-  const bool hangs = !joint.is_surplus && options.poses.front().hanging();
-  const double bound_rad = std::atan(ballast.bound_t + joint.overlooked_t);
   return {profile_with_ballast(options).infill_ratio,
           ballast.infill.infill_ratio,
           ballast.infill.dense,
           ballast.added_mm3,
           ballast.added_mm3 * printed_density(options) * 1e-3,
-          hangs ? -bound_rad : bound_rad,
-          joint.is_surplus ? BoundOf::surplus : (hangs ? BoundOf::tilt : BoundOf::tip),
+          joint.bound_rad(ballast.bound_t),
+          joint.bound_of,
           static_cast<std::size_t>(ballast.planes)};
 }
 

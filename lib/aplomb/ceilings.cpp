@@ -180,10 +180,10 @@ class Shaper {
 
 /// Against what balance alone has.
 void compare(CeilingFigures& figures, const Attempt& shaped, const Attempt& as_carved) {
-  const double bound_rad = std::atan(as_carved.carving.bound_t + as_carved.joint.overlooked_t);
-  figures.bound_rad = bound_rad;
+  const JointProblem& joint = as_carved.joint;
+  figures.bound_rad = joint.bound_rad(as_carved.carving.bound_t);
   figures.reached_without = as_carved.carving.reaches;
-  figures.cost_rad = bound_rad - std::atan(shaped.carving.bound_t + shaped.joint.overlooked_t);
+  figures.cost_rad = std::abs(figures.bound_rad - joint.bound_rad(shaped.carving.bound_t));
   figures.material_mm3 = shaped.carving.body.volume_mm3 - as_carved.carving.body.volume_mm3;
 }
 

@@ -39,11 +39,6 @@ PocketRules pocket_rules(const StandOptions& options) {
   return rules;
 }
 
-BoundOf bound_of(const JointProblem& joint, const StandOptions& options) {
-  if (joint.is_surplus) return BoundOf::surplus;
-  return options.poses.front().hanging() ? BoundOf::tilt : BoundOf::tip;
-}
-
 /// What of a solid is printed.
 Result<Moments> printed(const SolidMesh& solid, const Moments& moments, const StandOptions& options, const Job& job) {
   if (!options.profile) return moments;
@@ -165,7 +160,7 @@ class Inserter {
     const double t =
         loaded_t(joint_.problem, {*body, inserts_as_solid(made.input.inserts, options_)}, kind_of(options_));
     made.reaches = t >= joint_.required_t;
-    made.figures.reached_rad = shown_rad(t);
+    made.figures.reached_rad = joint_.angle_rad(t);
     return made;
   }
 
@@ -180,8 +175,8 @@ class Inserter {
   InsertFigures figures_of(const PocketChoice& choice, double bound_t, const PocketFits& fits) const {
     InsertFigures figures;
     figures.allowed = allowed_;
-    figures.bound_of = bound_of(joint_, options_);
-    figures.bound_rad = shown_rad(bound_t + joint_.overlooked_t);
+    figures.bound_of = joint_.bound_of;
+    figures.bound_rad = joint_.bound_rad(bound_t);
     figures.step_mm = fits.step_mm();
     figures.layer_mm = layers_of(options_).layer_mm;
     const double plate = input_.solid.box().min.z;
@@ -195,10 +190,6 @@ class Inserter {
     }
     std::ranges::sort(figures.pockets, {}, &PocketFigures::pause_mm);
     return figures;
-  }
-
-  double shown_rad(double t) const {
-    return bound_of(joint_, options_) == BoundOf::tilt ? -std::atan(t) : std::atan(t);
   }
 
   tl::unexpected<Error> refusal(const PocketFits& fits) const {

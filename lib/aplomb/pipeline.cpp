@@ -63,14 +63,13 @@ Result<Report> begin_report(const Input& input, const std::optional<LayeredPrint
 CarvingFigures carving_figures(const Carving& carving, const Input& input, const JointProblem& joint,
                                const StandOptions& options) {
   constexpr std::array<const char*, 3> aims{"least", "light", "stable"};
-  const bool hangs = !joint.is_surplus && options.poses.front().hanging();
-  const double bound_rad = std::atan(carving.bound_t + joint.overlooked_t);
+  const double bound_rad = joint.bound_rad(carving.bound_t);
   return {aims[static_cast<int>(options.aim)],
           input.moments.volume_mm3 - carving.body.volume_mm3,
-          hangs ? -bound_rad : bound_rad,
-          bound_rad - std::atan(carving.t),
+          bound_rad,
+          std::abs(bound_rad - joint.angle_rad(carving.t)),
           static_cast<std::size_t>(carving.planes),
-          joint.is_surplus ? BoundOf::surplus : (hangs ? BoundOf::tilt : BoundOf::tip),
+          joint.bound_of,
           {}};
 }
 
@@ -93,6 +92,18 @@ Result<StandRun> finish_ballast(StandRun run, const Input& input, const Ballast&
   return run;
 }
 
+std::string would_hold(BoundOf bound_of, double bound_deg) {
+  switch (bound_of) {
+    case BoundOf::tip:
+      return fmt::format("it would stand: up to {:.1f} degrees", bound_deg);
+    case BoundOf::tilt:
+      return fmt::format("it would hang as asked: {:.1f} degrees from level at best", bound_deg);
+    case BoundOf::surplus:
+      break;
+  }
+  return "it would hold in every pose";
+}
+
 /// What ceilings that print left undone.
 void add_ceiling_hints(Report& report, const Attempt& made) {
   const auto& ceiling = report.carving->ceiling;
@@ -103,8 +114,8 @@ void add_ceiling_hints(Report& report, const Attempt& made) {
                     ceiling->left == 1 ? "1 place is" : fmt::format("{} places are", ceiling->left)));
   if (ceiling->reached_without && !made.carving.reaches)
     report.hints.push_back(
-        fmt::format("with ceilings as they come (--ceiling any) it would stand: up to {:.1f} degrees",
-                    ceiling->bound_rad * 180 / std::numbers::pi));
+        fmt::format("with ceilings as they come (--ceiling any) {}",
+                    would_hold(report.carving->bound_of, ceiling->bound_rad * 180 / std::numbers::pi)));
 }
 
 /// The judge sees the print as it lies on the plate.

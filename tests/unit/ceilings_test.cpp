@@ -152,6 +152,20 @@ TEST(Ceilings, that_take_what_balance_needs_are_named_in_a_hint) {
                                   [](const std::string& hint) { return hint.find("--ceiling any") != hint.npos; }));
 }
 
+TEST(Ceilings, of_what_hangs_cost_as_a_tilt_does) {
+  const Input input = input_of(test::box({-15, -15, 0}, {15, 15, 40}));
+  StandOptions options = options_of(Ceiling::any);
+  options.poses = {{"ring", HangingPose{.attachments_mm = {{6, 0, 40}}, .required_tilt_rad = 0.01}}};
+  const Report any = stand(input, options)->report;
+  ASSERT_EQ(any.carving->bound_of, BoundOf::tilt);
+  options.ceiling = Ceiling::automatic;
+  const CeilingFigures figures = stand(input, options)->report.carving->ceiling.value();
+  EXPECT_GT(figures.ribs + figures.pillars + figures.fills, 0u);
+  EXPECT_NEAR(figures.bound_rad, any.carving->bound_rad, 1e-9);
+  EXPECT_GT(figures.bound_rad, 0);
+  EXPECT_GE(figures.cost_rad, 0);
+}
+
 /// A bar 12 mm wide and 50 high whose void has a part that is kept, as carved and shaped.
 struct Kept {
   Attempt as_carved, shaped;

@@ -88,7 +88,7 @@ TEST(JointProblem, OfABoxOnTwoFacesFollowsTheClosedForm) {
   const TriangleMesh box = test::box({}, size);
   const std::vector<Pose> poses{standing_on({0, 0, -1}, 10), standing_on({-1, 0, 0}, 40)};
   const JointProblem joint = joint_problem(box, poses, RowKind::nominal).value();
-  EXPECT_TRUE(joint.is_surplus);
+  EXPECT_EQ(joint.bound_of, BoundOf::surplus);
   EXPECT_EQ(joint.required_t, 0);
   const double on_end = (size.x / 2) / (size.z / 2) - std::tan(10 * degree);
   const double on_side = (size.y / 2) / (size.x / 2) - std::tan(40 * degree);
@@ -115,7 +115,7 @@ TEST(JointProblem, OfOnePoseKeepsItsOwnAngle) {
   const TriangleMesh box = test::box({}, {20, 30, 50});
   const Pose pose = standing_on({0, 0, -1}, 10);
   const JointProblem joint = joint_problem(box, {&pose, 1}, RowKind::nominal).value();
-  EXPECT_FALSE(joint.is_surplus);
+  EXPECT_EQ(joint.bound_of, BoundOf::tip);
   EXPECT_EQ(joint.required_t, std::tan(10 * degree));
   EXPECT_NEAR(std::atan(largest_t(joint.problem, moments(box))), std::atan2(10, 25), 1e-14);
 }

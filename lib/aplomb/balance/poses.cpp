@@ -36,16 +36,20 @@ std::string find_problem(std::span<const Pose> poses) {
   return {};
 }
 
+double JointProblem::angle_rad(double t) const { return bound_of == BoundOf::tilt ? -std::atan(t) : std::atan(t); }
+
 Result<JointProblem> joint_problem(const TriangleMesh& outer, std::span<const Pose> poses, RowKind kind) {
   assert(find_problem(poses).empty());
   JointProblem joint;
-  joint.is_surplus = poses.size() > 1;
-  if (!joint.is_surplus) joint.required_t = t_of(poses.front());
+  const bool is_surplus = poses.size() > 1;
+  if (is_surplus) joint.bound_of = BoundOf::surplus;
+  else if (poses.front().hanging()) joint.bound_of = BoundOf::tilt;
+  if (!is_surplus) joint.required_t = t_of(poses.front());
   for (const Pose& pose : poses) {
     const auto rows = rows_of(outer, pose, kind);
     if (!rows) return tl::unexpected(rows.error());
-    const double own_t = joint.is_surplus ? t_of(pose) : 0;
-    if (const HangingPose* hanging = pose.hanging(); hanging && joint.is_surplus)
+    const double own_t = is_surplus ? t_of(pose) : 0;
+    if (const HangingPose* hanging = pose.hanging(); hanging && is_surplus)
       joint.overlooked_t = std::max(joint.overlooked_t, std::tan(hanging->required_tilt_rad) + own_t);
     for (const BalanceRow& row : rows->rows) joint.problem.rows.push_back({row.at(own_t), row.b});
   }

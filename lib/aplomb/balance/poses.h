@@ -25,19 +25,31 @@ struct Pose {
 /// A sentence that names the pose, the field, its value and its range, or nothing. No pose at all is a problem.
 std::string find_problem(std::span<const Pose> poses);
 
+/// What a bound is of.
+enum class BoundOf {
+  tip,      ///< the tip angle of the only pose: none is larger
+  tilt,     ///< the tilt of the only pose, which hangs: none is smaller
+  surplus,  ///< of several poses, atan of what the tangents of all exceed those asked for: none is larger
+};
+
 /// The rows of all poses, to be reached at one t.
 struct JointProblem {
   BalanceProblem problem;
   double required_t = 0;  ///< every pose holds as asked from here on
-  bool is_surplus = false;
+  BoundOf bound_of = BoundOf::tip;
   /// Of a surplus: measured, all may exceed theirs by so much more than t, for what directions of threads overlook.
   double overlooked_t = 0;
+
+  /// The angle that t stands for: a tilt is the smaller the better, and t the larger.
+  double angle_rad(double t) const;
+  /// The angle that nothing exceeds, where no t above bound_t can be reached.
+  double bound_rad(double bound_t) const { return angle_rad(bound_t + overlooked_t); }
 };
 
 /// Unites the rows of the poses. A single pose keeps its own t: tan(tip angle), or -tan(tilt). Of several, each with
 /// its own t_p asked for, t is what all exceed theirs by:
 ///
-///     a_i - (t + t_p) b_i        required_t = 0, is_surplus
+///     a_i - (t + t_p) b_i        required_t = 0, BoundOf::surplus
 ///
 /// \pre  find_problem(poses) is empty.
 /// \return as support_polygon.

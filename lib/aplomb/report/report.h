@@ -20,13 +20,6 @@ enum class Outcome {
   falls,           ///< it does not, and only that was asked (`check`)
 };
 
-/// What a bound is of.
-enum class BoundOf {
-  tip,      ///< the tip angle of the only pose: none is larger
-  tilt,     ///< the tilt of the only pose, which hangs: none is smaller
-  surplus,  ///< of several poses, atan of what the tangents of all exceed those asked for: none is larger
-};
-
 /// What was kept in the voids so that their ceilings print.
 struct CeilingFigures {
   std::size_t ribs = 0;     ///< upright sheets that ceilings are bridged between
