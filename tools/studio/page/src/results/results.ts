@@ -30,7 +30,7 @@ export interface StandResult extends CheckResult {
   readonly outside: MeshData | null;
   readonly voids: readonly MeshData[];
   readonly dense: MeshData | null;
-  readonly code: number;
+  readonly code: number | null; // the program's exit code, once it has ended
 }
 
 export interface JudgementResult {

@@ -47,24 +47,26 @@ export class Runs {
     this.results.patch({busy: {what, fraction: Number(message.fraction), stage: String(message.stage)}});
   }
 
+  /** What is known is shown as it comes: the report first, the surfaces after it. */
   async #stand(signal: AbortSignal): Promise<void> {
-    const doc = this.documents.doc, key = keyOf(doc), voids: MeshData[] = [];
-    let made: Pick<StandResult, 'report' | 'message'> | null = null;
-    let outside: MeshData | null = null, dense: MeshData | null = null;
+    const doc = this.documents.doc;
+    let made: StandResult | null = null;
     for await (const frame of this.client.stream('/api/stand', {model: doc.model?.id, job: doc.job}, signal)) {
-      if (frame.kind === 'mesh' && frame.mesh.name === 'outside') outside = outside ? joined(outside, frame.mesh) : frame.mesh;
-      if (frame.kind === 'mesh' && frame.mesh.name === 'void') voids.push(frame.mesh);
-      if (frame.kind === 'mesh' && frame.mesh.name === 'dense') dense = frame.mesh;
-      if (frame.kind !== 'json') continue;
-      if (!goesOn(frame.message)) return;
-      if (frame.message.type === 'progress') this.#progress('stand', frame.message);
-      if (frame.message.type === 'report')
-        made = {report: frame.message.report as Report, message: String(frame.message.message)};
-      if (frame.message.type !== 'ended') continue;
-      const code = Number(frame.message.code), sentence = String(frame.message.message ?? '');
-      if (made) this.results.patch({stand: {key, ...made, outside, voids, dense, code}});
-      if (code !== 0) this.results.patch({notice: {tone: 'error', sentence}});
+      if (frame.kind === 'mesh' && made) made = withSurface(made, frame.mesh);
+      if (frame.kind === 'json') {
+        const {message} = frame;
+        if (!goesOn(message)) return;
+        if (message.type === 'report') made = begun(keyOf(doc), message.report as Report, String(message.message));
+        if (message.type === 'ended' && made) made = {...made, code: Number(message.code)};
+        if (message.type === 'progress') {
+          if (made) this.results.patch({stand: made});
+          this.#progress('stand', message);
+        }
+        if (message.type === 'ended' && Number(message.code) !== 0)
+          this.results.patch({notice: {tone: 'error', sentence: String(message.message)}});
+      }
     }
+    if (made) this.results.patch({stand: made});
   }
 
   async #validate(of: 'model' | 'result', signal: AbortSignal): Promise<void> {
@@ -77,6 +79,16 @@ export class Runs {
         this.results.patch({judgement: {key: keyOf(doc), of, judgement: frame.message.judgement as Judgement}});
     }
   }
+}
+
+function begun(key: string, report: Report, message: string): StandResult {
+  return {key, report, message, outside: null, voids: [], dense: null, code: null};
+}
+
+function withSurface(made: StandResult, mesh: MeshData): StandResult {
+  if (mesh.name === 'void') return {...made, voids: [...made.voids, mesh]};
+  if (mesh.name === 'dense') return {...made, dense: mesh};
+  return {...made, outside: made.outside ? joined(made.outside, mesh) : mesh};
 }
 
 /** Two surfaces as one. */

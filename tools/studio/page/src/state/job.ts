@@ -1,4 +1,4 @@
-/** A job as lib/aplomb/job/job.schema.json has it, less the keys that name files. Lengths in mm, angles in degrees. */
+/** A job as lib/aplomb/job/job.schema.json has it, less its version and the keys that name files. Lengths in mm, angles in degrees. */
 
 export type Vec3 = readonly [number, number, number];
 export type Axis = 'x' | 'y' | 'z' | '-x' | '-y' | '-z';
@@ -52,7 +52,6 @@ export interface Place {
 }
 
 export interface Job {
-  readonly aplomb_job: 1;
   readonly place?: Place;
   readonly poses?: readonly Pose[];
   readonly aim?: 'least' | 'light' | 'stable';
@@ -68,7 +67,7 @@ export interface Job {
   readonly [other: string]: unknown;
 }
 
-export const emptyJob: Job = {aplomb_job: 1};
+export const emptyJob: Job = {};
 export const defaultTipDeg = 10;
 export const defaultTiltDeg = 2;
 export const mostBalls = 1000;
