@@ -278,7 +278,8 @@ void Routes::stream(Response& response, const Ask& ask, Errand errand) {
 
 void Routes::answer(const Ask& ask, const Model& model, Errand errand, Stream& stream) {
   const std::string job = job_file_text(ask.job, model, false, false);
-  if (const auto parsed = parse_job(job, ""); !parsed) return stream.json(error_message(parsed.error()));
+  if (errand == Errand::stand)  // the others are told by the solver
+    if (const auto parsed = parse_job(job, ""); !parsed) return stream.json(error_message(parsed.error()));
   SolverRequest request{.what = "place", .folder = model.folder.string(), .job = job, .wish = ask.wish};
   switch (errand) {
     case Errand::stand:

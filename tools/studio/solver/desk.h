@@ -2,7 +2,9 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "aplomb/deform/bend_preview.h"
 #include "aplomb/input.h"
 #include "aplomb/job/job_file.h"
 
@@ -14,13 +16,17 @@ class Desk {
   /// The solid of a job, from the file only where another one was asked for before. \return as load_solid().
   Result<const Input*> solid(const std::string& folder, const JobFile& asked, const Job& job);
 
-  /// Names the solid that is there; another one has another name.
-  const std::string& solid_key() const { return solid_key_; }
+  /// What bends that solid for the poses of a job, made where it is not there yet. \return as BendPreview::make().
+  Result<const BendPreview*> bender(const Input& input, const StandOptions& options, const Job& job);
+
+  std::vector<Vec3> bent;  ///< the cage of the last stage of that bender; empty: at rest
 
  private:
   std::string file_key_, solid_key_;
   std::optional<MeshFile> file_;
   std::optional<Input> solid_;
+  std::string bender_key_;
+  std::optional<BendPreview> bender_;
 };
 
 }  // namespace aplomb::studio

@@ -18,6 +18,7 @@
 #include "memory_limit.h"
 #include "solver/desk.h"
 #include "solver/outbox.h"
+#include "solver/preview.h"
 #include "solver/surfaces.h"
 #include "wire/messages.h"
 
@@ -62,12 +63,13 @@ class Solver {
     std::filesystem::current_path(request_.folder, moved);
     if (moved) return fail(ErrorCode::file_system, "the model's folder is gone");
     if (request_.what == "result") return show_result();
-    auto job = parse_job(request_.job, "");
+    auto job = request_.what == "preview" ? parse_bending_job(request_.job) : parse_job(request_.job, "");
     if (!job) return tl::unexpected(job.error());
     job->input.read.max_triangles = std::min(job->input.read.max_triangles, most_triangles);
     if (request_.what == "place") return place(*job);
     if (request_.what == "check") return check(*job);
     if (request_.what == "validate") return validate(*job);
+    if (request_.what == "preview") return bend(*job);
     return fail(ErrorCode::internal, "the solver does not know how to " + request_.what);
   }
 
@@ -90,6 +92,12 @@ class Solver {
     if (!report) return tl::unexpected(report.error());
     out_.json(wrapped_message("report", "report", to_json(*report), verdict(*report)));
     return {};
+  }
+
+  Result<void> bend(const JobFile& job) {
+    const auto input = desk_.solid(request_.folder, job, out_.work(false));
+    if (!input) return tl::unexpected(input.error());
+    return preview(job, request_.wish, **input, desk_, out_);
   }
 
   /// As `aplomb validate` does it.
