@@ -62,6 +62,17 @@ export function choiceField(options: ChoiceOptions): Part {
   };
 }
 
+/** Two fields in one row, under the label of the first. */
+export function paired(first: Part, second: Part): Part {
+  const [label, one] = first.element.children as unknown as [HTMLElement, HTMLElement];
+  const [other, two] = second.element.children as unknown as [HTMLElement, HTMLElement];
+  two.querySelector('input')?.setAttribute('aria-label', other.textContent ?? '');
+  return {
+    element: h('div', {class: 'field'}, label, h('span', {class: 'two'}, one, two)),
+    update: () => [first, second].forEach((field) => field.update()),
+  };
+}
+
 /** Three numbers in a row, such as a point or turns about x, y and z. */
 export function tripleField(label: string, unit: string, step: number, value: () => readonly number[] | undefined,
                             change: (value: readonly [number, number, number]) => void): Part {

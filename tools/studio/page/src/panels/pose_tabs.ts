@@ -2,7 +2,7 @@ import type {Bench} from '../tools/tool';
 import {type Pose, edited, poseName, posesOf, vectorOf, withHang, withPose, withStand} from '../state/job';
 import {verdictOf} from '../results/verdict';
 import {h, icon} from './dom';
-import {type Part, choiceField, numberField} from './fields';
+import {type Part, choiceField, numberField, paired} from './fields';
 import {icons} from './icons';
 
 const ways: readonly (readonly [string, string])[] = [
@@ -59,7 +59,7 @@ function adder(bench: Bench): HTMLElement {
     const {documents, ui} = bench, poses = posesOf(documents.doc.job);
     documents.change({...documents.doc.job, poses: [...poses, {stand: {up: '-z'}}]}, 'add a pose');
     ui.patch({pose: poses.length});
-  }}, icon(icons.plus), bench.documents.doc.job.poses ? '' : 'pose');
+  }}, icon(icons.plus), (bench.documents.doc.job.poses?.length ?? 1) > 1 ? '' : 'Add a pose');
 }
 
 function poseFields(bench: Bench, current: () => Pose, change: (pose: Pose, label: string) => void): Part[] {
@@ -102,5 +102,5 @@ function poseFields(bench: Bench, current: () => Pose, change: (pose: Pose, labe
       clear.hidden = contacts === 0;
     },
   };
-  return [kind, asked, up, touches];
+  return [paired(kind, asked), up, touches];
 }

@@ -58,9 +58,11 @@ export class Gizmo {
   under(x: number, y: number): Part | null {
     if (!this.group.visible) return null;
     const box = this.stage.canvas.getBoundingClientRect(), found: {part: Part | null; far: number} = {part: null, far: near_px};
+    const middle = this.#onScreen([0, 0, 0])[0] ?? {x: -1000, y: -1000};
     for (const part of this.#parts)
       for (const points of strokes(part)) {
         const seen = this.#onScreen(points);
+        if (part === 'shift' && Math.hypot(x - box.left - middle.x, y - box.top - middle.y) < ring) return part;
         for (let i = 0; i + 1 < seen.length; ++i) {
           const far = distance(x - box.left, y - box.top, seen[i]!, seen[i + 1]!);
           if (far < found.far) Object.assign(found, {part, far});

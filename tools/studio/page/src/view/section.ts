@@ -96,7 +96,7 @@ function cap(compare: StencilFunc, reference: number, order: number): Mesh {
     uniforms: {ground: {value: new Color()}, line: {value: new Color()}, across: {value: 0}, pitch: {value: 100}},
     vertexShader: 'varying vec2 at; void main() { at = uv; gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); }',
     fragmentShader: `varying vec2 at; uniform vec3 ground; uniform vec3 line; uniform float across; uniform float pitch;
-      float stroke(float t) { float w = fwidth(t); float d = abs(fract(t) - 0.5); return 1.0 - smoothstep(0.12, 0.12 + w, d); }
+      float stroke(float t) { float w = fwidth(t); float d = abs(fract(t) - 0.5); return 1.0 - smoothstep(0.055, 0.055 + w, d); }
       void main() {
         float s = stroke((at.x + at.y) * pitch);
         if (across > 0.5) s = max(s, stroke((at.x - at.y) * pitch));

@@ -19,7 +19,7 @@ export class Stage {
   /** Called before each picture, such as for what keeps its size on the screen. */
   readonly beforeDraw = new Set<() => void>();
   readonly afterDraw = new Set<() => void>();
-  readonly #sun = new DirectionalLight(0xffffff, 1.7);
+  readonly #sun = new DirectionalLight(0xffffff, 1.9);
   #asked = false;
 
   constructor(readonly canvas: HTMLCanvasElement) {
@@ -29,7 +29,7 @@ export class Stage {
     this.camera.up.set(0, 0, 1);
     this.camera.add(this.#sun);
     this.#sun.position.set(-0.6, 0.8, 0.7);
-    this.scene.add(this.camera, new HemisphereLight(0xffffff, 0x8a8780, 1.7));
+    this.scene.add(this.camera, new HemisphereLight(0xffffff, 0x9a968e, 2.0));
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.zoomToCursor = true;
     this.controls.addEventListener('change', () => this.invalidate());
@@ -59,7 +59,7 @@ export class Stage {
     if (box.isEmpty()) return;
     const ball = box.getBoundingSphere(new Sphere());
     const half = Math.min(this.camera.fov, this.camera.fov * this.camera.aspect) * (Math.PI / 360);
-    const distance = (ball.radius * 1.12) / Math.sin(half);
+    const distance = (ball.radius * 0.98) / Math.sin(half);
     this.controls.target.copy(ball.center);
     this.camera.position.copy(looks[side]).normalize().multiplyScalar(distance).add(ball.center);
     this.camera.near = distance / 100;

@@ -171,7 +171,7 @@ export class View {
     if (!heading || typeof shown.figures.tip_deg !== 'number' || !this.ui.value.ring) return this.labels.remove(this.#weakLabel);
     this.#weakLabel.textContent = `${degrees(shown.figures.tip_deg)}°`;
     this.#weakLabel.title = `weakest ${wayOf(edge.heading, shown.pose.up)}`;
-    this.labels.put(this.#weakLabel, new Vector3(center2.x, center2.y, 0).addScaledVector(heading, 1.5 * radius));
+    this.labels.put(this.#weakLabel, new Vector3(center2.x, center2.y, 0).addScaledVector(heading, (1.16 + 0.3 * Math.max(0, shown.figures.tip_deg) / 45) * radius));
   }
 
   /** Plays the way it falls over its weak edge, of the pose that is shown. */
