@@ -38,7 +38,7 @@ const root = document.getElementById('studio') as HTMLElement;
 function build(client: Client, start: Start): void {
   const documents = new DocumentStore(), results = new Signal<Results>(nothing), ui = newUi();
   const conductor = new Conductor(client, documents, results);
-  const canvas = h('canvas', {tabIndex: 0, 'aria-label': 'The model on its plate', role: 'img'});
+  const canvas = h('canvas', {'aria-label': 'The model on its plate', role: 'img'});
   const marks = h('div', {class: 'marks'}), room = h('main', {class: 'room'}, canvas, marks);
   root.replaceChildren(room);
   const view = new View(canvas, marks, documents, results, ui);

@@ -106,7 +106,7 @@ test('of many wishes the first and the newest are done, and none that is served 
       if (turn.signal.aborted || wish === 9) resolve();
     });
     ended.push(wish);
-  }, assert.fail);
+  }, (error) => assert.fail(String(error)));
   for (let wish = 0; wish < 10; ++wish) newest.ask(wish);
   await moment(40);
   assert.deepEqual(begun, [0, 9]);

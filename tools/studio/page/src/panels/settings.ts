@@ -44,7 +44,7 @@ export function makingPanel({documents}: Bench, start: Start): Part {
     }),
     choiceField({
       label: 'Outside', hint: 'Whether the outside may be cut and bent', value: () => job().deform ?? 'never',
-      options: () => [['never', 'stays as it is'], ['auto', 'may bend where needed'], ['only', 'bends, nothing carved']],
+      options: () => [['never', 'stays as it is'], ['auto', 'bends if needed'], ['only', 'bends, is not carved']],
       change: (value) => change({deform: value === 'never' ? undefined : (value as Job['deform']),
                                  ...(value === 'never' ? {handles: undefined} : {})}, 'outside'),
     }),

@@ -8,7 +8,7 @@ export type Part = 'shift' | 'x' | 'y' | 'z' | 'turn-x' | 'turn-y' | 'turn-z' | 
 
 const axes = {x: new Vector3(1, 0, 0), y: new Vector3(0, 1, 0), z: new Vector3(0, 0, 1)};
 const near_px = 9;
-const gap = 24, tip = 84, arc = 58, knob = 70, ring = 9; // pixels from the middle, which stays free to be seen
+const gap = 24, tip = 84, arc = 58, knob = 82, ring = 9; // pixels from the middle, which stays free to be seen
 
 /** The thing to grasp a place by: arrows shift it, arcs turn it, the square scales it. Its size on the screen is always the same. */
 export class Gizmo {
@@ -103,7 +103,7 @@ export function alongAxis(ray: Ray, at: Vector3, axis: Vector3): number {
 export function angleAbout(ray: Ray, at: Vector3, axis: Vector3): number | null {
   const met = ray.intersectPlane(new Plane().setFromNormalAndCoplanarPoint(axis, at), new Vector3());
   if (!met || Math.abs(ray.direction.dot(axis)) < 0.02) return null;
-  const first = new Vector3(axis.y, axis.z, axis.x), second = axis.clone().cross(first);
+  const first = new Vector3(axis.z, axis.x, axis.y), second = axis.clone().cross(first);
   met.sub(at);
   return Math.atan2(met.dot(second), met.dot(first));
 }
@@ -119,10 +119,10 @@ function strokes(part: Part): number[][] {
   const axis = axisOf(part);
   if (part === 'shift') return [circle(ring)];
   if (part === 'scale') {
-    const at = (r: number) => [r * 0.577, -r * 0.577, r * 0.577], [x, y, z] = at(knob) as [number, number, number], h = 5;
-    return [[...at(gap), ...at(knob - 6)], [x - h, y, z - h, x + h, y, z - h, x + h, y, z + h, x - h, y, z + h, x - h, y, z - h]];
+    const at = (r: number) => [r * 0.707, 0, r * 0.707], [x, y, z] = at(knob) as [number, number, number], h = 5;
+    return [[...at(arc + 8), ...at(knob - 7)], [x - h, y, z - h, x + h, y, z - h, x + h, y, z + h, x - h, y, z + h, x - h, y, z - h]];
   }
-  const a = axis as Vector3, u = new Vector3(a.y, a.z, a.x), v = a.clone().cross(u);
+  const a = axis as Vector3, u = new Vector3(a.z, a.x, a.y), v = a.clone().cross(u);
   if (part.startsWith('turn'))
     return [Array.from({length: 17}, (_, n) => {
       const angle = 0.18 + ((Math.PI / 2 - 0.36) * n) / 16;

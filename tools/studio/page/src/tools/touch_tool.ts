@@ -1,4 +1,5 @@
 import {posesOf, type Vec3, withHang, withStand} from '../state/job';
+import type {Hit} from '../view/pick';
 import {type Bench, type Tool, brushOf, tenth} from './tool';
 
 /** Picks where the surface may touch the plate; in a pose that hangs, where it hangs from. */
@@ -17,7 +18,14 @@ export class TouchTool implements Tool {
     const from = this.#pressed;
     this.#pressed = null;
     const hit = from && Math.hypot(x - from[0], y - from[1]) < 5 ? this.bench.view.picker.at(x, y) : null;
-    if (hit) this.#toggle(hit.placed.map(tenth) as unknown as Vec3);
+    if (hit) this.#toggle(this.#under(hit).map(tenth) as unknown as Vec3);
+  }
+
+  /** In a pose that stands, the point of the plate under what was pressed: a press on a foot means its sole. */
+  #under(hit: Hit): Vec3 {
+    const {documents, ui, view} = this.bench;
+    if (posesOf(documents.doc.job)[ui.value.pose]?.hang) return hit.placed;
+    return hit.at.clone().setZ(0).applyMatrix4(view.figure.pose.matrixWorld.clone().invert()).toArray();
   }
 
   #toggle(at: Vec3): void {

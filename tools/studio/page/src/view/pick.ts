@@ -28,6 +28,7 @@ export class Picker {
   ray(x: number, y: number): Raycaster {
     const box = this.stage.canvas.getBoundingClientRect();
     const at = new Vector2(((x - box.left) / box.width) * 2 - 1, 1 - ((y - box.top) / box.height) * 2);
+    this.stage.camera.updateMatrixWorld(); // it may not have been drawn since it moved
     this.#caster.setFromCamera(at, this.stage.camera);
     return this.#caster;
   }

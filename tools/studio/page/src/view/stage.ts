@@ -54,14 +54,15 @@ export class Stage {
     this.invalidate();
   }
 
-  /** Looks at a box from one side such that all of it is in view. */
-  look(box: Box3, side: Side): void {
+  /** Looks at a box such that all of it is in view: from one side, or from where one looks already. */
+  look(box: Box3, side: Side | null): void {
     if (box.isEmpty()) return;
     const ball = box.getBoundingSphere(new Sphere());
     const half = Math.min(this.camera.fov, this.camera.fov * this.camera.aspect) * (Math.PI / 360);
     const distance = (ball.radius * 0.98) / Math.sin(half);
+    const way = side ? looks[side].clone() : this.camera.position.clone().sub(this.controls.target);
     this.controls.target.copy(ball.center);
-    this.camera.position.copy(looks[side]).normalize().multiplyScalar(distance).add(ball.center);
+    this.camera.position.copy(way).normalize().multiplyScalar(distance).add(ball.center);
     this.camera.near = distance / 100;
     this.camera.far = distance * 20;
     this.camera.updateProjectionMatrix();

@@ -123,11 +123,12 @@ export class View {
     if (!this.figure.outside || (seen === this.#seen && !isOther)) return;
     const box = this.figure.box(), model = JSON.parse(this.#seen || '[null]')[0];
     this.#plate.lay(box, this.#inks);
-    if (seen !== this.#seen && model !== doc.model?.id) this.lookFrom('corner');
+    if (seen !== this.#seen) this.lookFrom(model === doc.model?.id ? null : 'corner');
     this.#seen = seen;
   }
 
-  lookFrom(side: Side): void {
+  /** Looks at all of the figure, from one side or from where one looks already. */
+  lookFrom(side: Side | null): void {
     const box = this.figure.box();
     if (box.isEmpty()) return;
     box.expandByPoint(new Vector3(box.min.x, box.min.y, 0));
