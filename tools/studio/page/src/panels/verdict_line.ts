@@ -17,7 +17,7 @@ export function verdictLine(documents: DocumentStore, results: ResultsStore, ui:
   const update = () => {
     const {doc} = documents, asked = {...doc, job: documents.job}, now = results.value;
     element.hidden = doc.model === null && now.busy === null;
-    const verdict = verdictOf(now, asked, ui.value.pose);
+    const verdict = verdictOf(now, asked, ui.value.pose, documents.state.value.wish !== null);
     const isOld = verdict.line === '' && documents.state.value.wish !== null; // the next preview is on its way
     if (isOld) return;
     const held = heldPoses(now, doc);

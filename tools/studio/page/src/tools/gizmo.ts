@@ -8,7 +8,7 @@ export type Part = 'shift' | 'x' | 'y' | 'z' | 'turn-x' | 'turn-y' | 'turn-z' | 
 
 const axes = {x: new Vector3(1, 0, 0), y: new Vector3(0, 1, 0), z: new Vector3(0, 0, 1)};
 const near_px = 9;
-const gap = 24, tip = 84, arc = 58, knob = 82, ring = 9; // pixels from the middle, which stays free to be seen
+const gap = 24, tip = 84, arc = 58, knob = 82, ring = 9, circles = 130; // pixels from the middle, which stays free to be seen
 
 /** The thing to grasp a place by: arrows shift it, arcs turn it, the square scales it. Its size on the screen is always the same. */
 export class Gizmo {
@@ -16,7 +16,8 @@ export class Gizmo {
   #hot: Part | null = null;
   #parts: readonly Part[] = [];
 
-  constructor(private readonly stage: Stage, parent: Object3D) {
+  /** `wide`: with whole circles, for what is turned as a whole. */
+  constructor(private readonly stage: Stage, parent: Object3D, private readonly wide = false) {
     parent.add(this.group);
     this.group.visible = false;
     stage.beforeDraw.add(() => this.#resize());
@@ -37,7 +38,7 @@ export class Gizmo {
     const inks = readInks();
     for (const part of this.#parts) {
       const hot = part === this.#hot, color = hot ? inks.accent : inks.ink;
-      for (const points of strokes(part)) {
+      for (const points of strokes(part, this.wide)) {
         this.group.add(line(points, {color: inks.paper, pixels: hot ? 8 : 6, seenThrough: true, opacity: 0.8}));
         const drawn = line(points, {color, pixels: hot ? 4 : 2.5, seenThrough: true});
         drawn.renderOrder = 22;
@@ -60,7 +61,7 @@ export class Gizmo {
     const box = this.stage.canvas.getBoundingClientRect(), found: {part: Part | null; far: number} = {part: null, far: near_px};
     const middle = this.#onScreen([0, 0, 0])[0] ?? {x: -1000, y: -1000};
     for (const part of this.#parts)
-      for (const points of strokes(part)) {
+      for (const points of strokes(part, this.wide)) {
         const seen = this.#onScreen(points);
         if (part === 'shift' && Math.hypot(x - box.left - middle.x, y - box.top - middle.y) < ring) return part;
         for (let i = 0; i + 1 < seen.length; ++i) {
@@ -115,7 +116,7 @@ export function facingCamera(ray: Ray, at: Vector3, camera: Camera, parent: Obje
 }
 
 /** The lines that draw a part, and by which it is found, in pixels from the middle. */
-function strokes(part: Part): number[][] {
+function strokes(part: Part, wide: boolean): number[][] {
   const axis = axisOf(part);
   if (part === 'shift') return [circle(ring)];
   if (part === 'scale') {
@@ -124,9 +125,9 @@ function strokes(part: Part): number[][] {
   }
   const a = axis as Vector3, u = new Vector3(a.z, a.x, a.y), v = a.clone().cross(u);
   if (part.startsWith('turn'))
-    return [Array.from({length: 17}, (_, n) => {
-      const angle = 0.18 + ((Math.PI / 2 - 0.36) * n) / 16;
-      return u.clone().multiplyScalar(arc * Math.cos(angle)).addScaledVector(v, arc * Math.sin(angle)).toArray();
+    return [Array.from({length: wide ? 65 : 17}, (_, n) => {
+      const angle = wide ? (Math.PI * n) / 32 : 0.18 + ((Math.PI / 2 - 0.36) * n) / 16, r = wide ? circles : arc;
+      return u.clone().multiplyScalar(r * Math.cos(angle)).addScaledVector(v, r * Math.sin(angle)).toArray();
     }).flat()];
   const point = (along: number, side: number) => a.clone().multiplyScalar(along).addScaledVector(u, side).toArray();
   const shaft = [...point(gap, 0), ...point(tip, 0)], head = [...point(tip - 9, 5), ...point(tip, 0), ...point(tip - 9, -5)];

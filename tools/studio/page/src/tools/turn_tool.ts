@@ -14,7 +14,7 @@ export class TurnTool implements Tool {
   #grip: {part: Part; ray: Ray; middle: Vector3} | null = null;
 
   constructor(private readonly bench: Bench) {
-    this.#gizmo = new Gizmo(bench.view.stage, bench.view.stage.scene);
+    this.#gizmo = new Gizmo(bench.view.stage, bench.view.stage.scene, true);
     bench.results.subscribe(() => {
       if (bench.ui.value.tool === 'turn' && !this.#grip) this.begin();
     });

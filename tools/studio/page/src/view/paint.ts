@@ -25,7 +25,7 @@ export function paintRegions(surface: Surface, job: Job, pose: number, height: n
 }
 
 export function paintBall(surface: Surface, at: Vec3, radius: number, as: number): void {
-  const p = surface.positions, [x, y, z] = at, most = radius * radius;
+  const p = surface.rest, [x, y, z] = at, most = radius * radius;
   for (let v = 0, i = 0; i < p.length; ++v, i += 3) {
     const dx = p[i]! - x;
     if (dx > radius || dx < -radius) continue;

@@ -1,13 +1,14 @@
-import {type BufferGeometry, Matrix4, Raycaster, Vector2, Vector3} from 'three';
+import {type BufferGeometry, type Face, Matrix4, Raycaster, Triangle, Vector2, Vector3} from 'three';
 import {MeshBVH} from 'three-mesh-bvh';
 
 import type {Vec3} from '../state/job';
 import type {Figure} from './figure';
 import type {Stage} from './stage';
+import type {Surface} from './surface';
 
 export interface Hit {
   readonly at: Vector3; // on the plate of the pose
-  readonly placed: Vec3; // in placed coordinates
+  readonly placed: Vec3; // in placed coordinates, of the model before any bend
   readonly normal: Vector3; // outward, in placed coordinates
 }
 
@@ -41,9 +42,8 @@ export class Picker {
     const ray = this.ray(x, y).ray.clone().applyMatrix4(new Matrix4().copy(pose.matrixWorld).invert());
     const hit = this.#treeOf(surface.geometry).raycastFirst(ray);
     if (!hit?.face) return null;
-    const {point} = hit;
     return {
-      at: point.clone().applyMatrix4(pose.matrixWorld), placed: [point.x, point.y, point.z], normal: hit.face.normal.clone(),
+      at: hit.point.clone().applyMatrix4(pose.matrixWorld), placed: atRest(surface, hit.face, hit.point), normal: hit.face.normal.clone(),
     };
   }
 
@@ -57,4 +57,13 @@ export class Picker {
     this.#moved = false;
     return this.#tree;
   }
+}
+
+/** Where a point of a face was before any bend. */
+function atRest(surface: Surface, face: Face, point: Vector3): Vec3 {
+  const corners = [face.a, face.b, face.c] as const;
+  const now = corners.map((v) => new Vector3().fromArray(surface.positions, 3 * v)) as [Vector3, Vector3, Vector3];
+  const shares = Triangle.getBarycoord(point, ...now, new Vector3())?.toArray() ?? [1, 0, 0];
+  const rest = corners.reduce((sum, v, i) => sum.addScaledVector(new Vector3().fromArray(surface.rest, 3 * v), shares[i]!), new Vector3());
+  return rest.toArray();
 }

@@ -12,14 +12,15 @@ export class Surface {
   readonly geometry = new BufferGeometry();
   readonly positions: Float32Array;
   readonly triangles: Uint32Array;
-  readonly #rest: Float32Array; // the positions before any bend
+  /** The positions before any bend: those that a job speaks of. */
+  readonly rest: Float32Array;
   readonly #normals: Float32Array;
   readonly #creases: Float32Array;
   /** What is painted on each vertex, as paint.ts numbers it. */
   readonly paint: Float32Array;
 
   constructor(mesh: MeshData) {
-    this.#rest = mesh.positions;
+    this.rest = mesh.positions;
     this.positions = mesh.positions.slice();
     this.triangles = mesh.triangles;
     const vertices = this.positions.length / 3;
@@ -39,13 +40,13 @@ export class Surface {
 
   /** Moves the vertices, or back to rest without positions. \return the largest way of one, mm. */
   move(positions: Float32Array | null): number {
-    const to = positions ?? this.#rest;
+    const to = positions ?? this.rest;
     this.positions.set(to);
     this.#shade();
     for (const name of ['position', 'normal', 'crease']) (this.geometry.getAttribute(name) as BufferAttribute).needsUpdate = true;
     let most = 0;
     for (let i = 0; positions && i < to.length; i += 3)
-      most = Math.max(most, (to[i]! - this.#rest[i]!) ** 2 + (to[i + 1]! - this.#rest[i + 1]!) ** 2 + (to[i + 2]! - this.#rest[i + 2]!) ** 2);
+      most = Math.max(most, (to[i]! - this.rest[i]!) ** 2 + (to[i + 1]! - this.rest[i + 1]!) ** 2 + (to[i + 2]! - this.rest[i + 2]!) ** 2);
     return Math.sqrt(most);
   }
 

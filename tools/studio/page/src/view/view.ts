@@ -149,10 +149,10 @@ export class View {
     const {largest} = this.#size(), onPlate = (p: Vec3) => new Vector3(...p).applyMatrix4(this.figure.pose.matrixWorld);
     const shown = this.figure.outside && !this.documents.state.value.wish ? found : null;
     const com = shown && onPlate(shown.figures.com_mm);
-    const isAfter = shown !== null && shown.pose.after != null;
-    const center = this.results.value.preview?.preview.center_mm;
-    this.#now.show(com ?? (this.figure.outside && center ? onPlate(center) : null), inks, largest, false);
-    this.#before.show(isAfter ? onPlate(shown.pose.before.com_mm) : null, inks, largest, true);
+    const isAfter = shown !== null && shown.pose.after != null, was = found?.pose.before.com_mm;
+    const bent = this.#bent ? this.results.value.preview?.preview.center_mm : undefined;
+    this.#now.show(bent ? onPlate(bent) : com, inks, largest, false);
+    this.#before.show((isAfter || bent) && was ? onPlate(was) : null, inks, largest, true);
     const polygon = shown?.figures.support_polygon_mm, edge = shown?.figures.weak_edge;
     if (!shown || !com || !polygon || polygon.length < 3 || bends(doc.job) && !isAfter) {
       this.#ground.show(null, inks, false);
