@@ -83,8 +83,8 @@ class Answer:
 
 
 class Studio:
-    def __init__(self, *arguments, environment=None):
-        self.process = subprocess.Popen([PROGRAM, "--no-browser", *arguments], stdout=subprocess.PIPE, text=True,
+    def __init__(self, *arguments, environment=None, program=PROGRAM):
+        self.process = subprocess.Popen([program, "--no-browser", *arguments], stdout=subprocess.PIPE, text=True,
                                         env={**os.environ, **(environment or {})})
         line = self.process.stdout.readline()
         self.address = re.search(r"http://127\.0\.0\.1:(\d+)/#(\w+)$", line.strip())

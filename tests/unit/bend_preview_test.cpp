@@ -29,9 +29,8 @@ std::vector<Pose> standing(double tip_deg) {
 }
 
 BendPreview preview_of(const SolidMesh& solid, double tip_deg, double most_mean_percent = 20) {
-  auto made = BendPreview::make(
-      solid, standing(tip_deg),
-      {.reshape = {.most_mean_percent = most_mean_percent, .wall_mm = 3}, .samples = 8000});
+  auto made = BendPreview::make(solid, standing(tip_deg),
+                                {.reshape = {.most_mean_percent = most_mean_percent, .wall_mm = 3}, .samples = 8000});
   EXPECT_TRUE(made) << made.error().message;
   return std::move(*made);
 }
@@ -90,7 +89,8 @@ TEST(BendPreview, FollowsAHandleFromWhereItIs) {
 
 TEST(BendPreview, HoldsWhatThePosesHoldAndWhatIsLocked) {
   const SolidMesh solid = column(0);
-  const BendWish wish{.regions = {.handles = {top_handle({5, 0, -3})}, .locked = {{{0, 0, 25}, 12}}}, .balances = false};
+  const BendWish wish{.regions = {.handles = {top_handle({5, 0, -3})}, .locked = {{{0, 0, 25}, 12}}},
+                      .balances = false};
   const BendStage stage = settled(preview_of(solid, 1), wish);
   std::size_t held = 0;
   for (std::size_t v = 0; v < solid.mesh().vertices.size(); ++v) {
@@ -107,8 +107,7 @@ TEST(BendPreview, BeginsAtRestWhereWhatHasMovedIsLocked) {
   const SolidMesh solid = column(0);
   const BendPreview preview = preview_of(solid, 1);
   const BendStage bent = settled(preview, {.regions = {.handles = {top_handle({5, 0, 0})}}, .balances = false});
-  const BendStage locked =
-      settled(preview, {.regions = {.locked = {{{0, 0, 58}, 6}}}, .balances = false}, bent.cage);
+  const BendStage locked = settled(preview, {.regions = {.locked = {{{0, 0, 58}, 6}}}, .balances = false}, bent.cage);
   EXPECT_LT(farthest_mm(locked.surface, solid.mesh()), 1e-6);
 }
 

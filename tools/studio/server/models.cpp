@@ -84,7 +84,9 @@ void Models::add(const Model& model) {
 std::optional<Model> Models::find(int id) {
   const std::lock_guard lock(mutex_);
   const auto at = std::ranges::find(kept_, id, &Model::id);
-  return at == kept_.end() ? std::nullopt : std::optional(*at);
+  if (at == kept_.end()) return std::nullopt;
+  std::rotate(at, at + 1, kept_.end());
+  return kept_.back();
 }
 
 }  // namespace aplomb::studio

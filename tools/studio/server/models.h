@@ -39,7 +39,7 @@ struct Model {
   std::string stem() const { return std::filesystem::path(name).stem().string(); }
 };
 
-/// The models that were given, of which the last few are kept.
+/// The models that were given, of which the last few that were used are kept.
 class Models {
  public:
   explicit Models(std::filesystem::path folder) : folder_(std::move(folder)) {}

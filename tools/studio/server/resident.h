@@ -10,7 +10,8 @@
 
 namespace aplomb::studio {
 
-/// The child that holds the solid. One caller at a time: see Turns.
+/// The child that holds the solid. Its death is a message to whom it was answering; where nobody was waiting, nobody
+/// hears of it. One caller at a time: see Turns.
 class Resident {
  public:
   explicit Resident(std::filesystem::path program) : program_(std::move(program)) {}
@@ -20,7 +21,10 @@ class Resident {
   bool answer(SolverRequest request, Stream& stream);
 
  private:
-  bool send(const SolverRequest& request, Stream& stream);
+  enum class Heard { nothing, answer, error };
+
+  bool start(Stream& stream);
+  Heard converse(const SolverRequest& request, Stream& stream);
   bool tell_of_death(Stream& stream);
 
   std::filesystem::path program_;

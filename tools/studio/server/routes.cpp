@@ -4,15 +4,13 @@
 #include <httplib.h>
 
 #include <algorithm>
-#include <array>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <vector>
 
-#include "aplomb/ending.h"
 #include "aplomb/job/job_file.h"
-#include "wire/messages.h"
+#include "server/replies.h"
 
 namespace aplomb::studio {
 namespace {
@@ -25,15 +23,9 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t most_ask_bytes = 1'000'000;
 constexpr std::size_t most_triangles = 5'000'000;
-constexpr int no_content = 204, bad_request = 400, not_found = 404, conflict = 409, too_large = 413, broken = 500;
 
 void answer_json(Response& response, const Json& json) {
   response.set_content(json.dump(-1, ' ', false, Json::error_handler_t::replace), "application/json");
-}
-
-void refuse(Response& response, int status, Ending ending, const std::string& sentence) {
-  response.status = status;
-  answer_json(response, {{"error", sentence}, {"code", static_cast<int>(ending)}});
 }
 
 Json json_of(const Model& model) {
@@ -56,19 +48,6 @@ std::string bytes_of(const fs::path& file) {
   std::ostringstream text;
   text << std::ifstream(file, std::ios::binary).rdbuf();
   return text.str();
-}
-
-/// `name` may be any text.
-void answer_file(Response& response, std::string bytes, const std::string& name, const char* type) {
-  std::string plain, coded;
-  for (const char c : name) {
-    const bool is_plain = std::isalnum(static_cast<unsigned char>(c)) || c == '.' || c == '-' || c == '_';
-    plain += is_plain ? c : '_';
-    coded += is_plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
-  }
-  response.set_header("Content-Disposition",
-                      fmt::format("attachment; filename=\"{}\"; filename*=UTF-8''{}", plain, coded));
-  response.set_content(std::move(bytes), type);
 }
 
 /// Reads a body into `take` while it is short enough. \return whether it was.
@@ -102,18 +81,20 @@ std::optional<Ask> Routes::read_ask(Response& response, const ContentReader& rea
 }
 
 void Routes::add_to(httplib::Server& server) {
-  server.set_pre_routing_handler([this](const Request& request, Response& response) {
-    response.status = guard_.refusal(request);
-    if (response.status == too_large)
+  const auto refused = [this](const Request& request, Response& response) {
+    const int status = guard_.refusal(request);
+    if (status != 0) response.status = status;
+    if (status == too_large)
       refuse(response, too_large, Ending::over_budget,
              fmt::format("a file may have up to {} MB here", guard_.most_body_bytes() >> 20));
-    if (response.status != 0) return httplib::Server::HandlerResponse::Handled;
-    response.status = -1;
-    return httplib::Server::HandlerResponse::Unhandled;
+    return status != 0;
+  };
+  server.set_pre_routing_handler([refused](const Request& request, Response& response) {
+    return refused(request, response) ? httplib::Server::HandlerResponse::Handled
+                                      : httplib::Server::HandlerResponse::Unhandled;
   });
-  server.set_expect_100_continue_handler([this](const Request& request, Response&) {
-    const int refused = guard_.refusal(request);
-    return refused == 0 ? 100 : refused;
+  server.set_expect_100_continue_handler([refused](const Request& request, Response& response) {
+    return refused(request, response) ? response.status : 100;
   });
   server.set_post_routing_handler([](const Request&, Response& response) { harden(response); });
   server.set_exception_handler([](const Request&, Response& response, const std::exception_ptr&) {
@@ -141,18 +122,6 @@ void Routes::add_to(httplib::Server& server) {
   server.set_file_extension_and_mimetype_mapping("js", "text/javascript");
   server.set_file_extension_and_mimetype_mapping("woff2", "font/woff2");
   server.set_mount_point("/", places_.page.string());
-}
-
-void Routes::add_streams(httplib::Server& server) {
-  constexpr std::array<std::pair<const char*, Errand>, 5> errands{{{"/api/place", Errand::place},
-                                                                   {"/api/check", Errand::check},
-                                                                   {"/api/preview", Errand::preview},
-                                                                   {"/api/validate", Errand::validate},
-                                                                   {"/api/stand", Errand::stand}}};
-  for (const auto& [path, errand] : errands)
-    server.Post(path, [this, errand = errand](const Request&, Response& response, const ContentReader& reader) {
-      if (const auto ask = read_ask(response, reader)) stream(response, *ask, errand);
-    });
 }
 
 Result<Model> Routes::copy_of(const fs::path& file) {
@@ -256,71 +225,6 @@ void Routes::take_away(Response& response, const Ask& ask) {
     return refuse(response, conflict, Ending::cannot_stand, "nothing was written, for it does not stand");
   const char* type = ask.what == "3mf" ? "model/3mf" : ask.what == "stl" ? "model/stl" : "text/html";
   answer_file(response, bytes_of(file), file.filename().string(), type);
-}
-
-void Routes::stream(Response& response, const Ask& ask, Errand errand) {
-  const auto model = models_.find(ask.model);
-  if (!model) return refuse(response, conflict, Ending::usage, "that model is no longer here");
-  const auto turn = turns_.ask(errand);
-  response.set_chunked_content_provider(
-      "application/octet-stream",
-      [this, ask, model = *model, errand, turn](std::size_t, httplib::DataSink& sink) {
-        Stream stream(sink, *turn);
-        while (!stream.is_over() && !turns_.is_up(*turn, 50)) stream.stay_alive();
-        if (stream.is_over()) stream.json(cancelled_message());
-        else answer(ask, model, errand, stream);
-        stream.end();
-        sink.done();
-        return true;
-      },
-      [this, turn](bool) { turns_.leave(*turn); });
-}
-
-void Routes::answer(const Ask& ask, const Model& model, Errand errand, Stream& stream) {
-  const std::string job = job_file_text(ask.job, model, false, false);
-  if (errand == Errand::stand)  // the others are told by the solver
-    if (const auto parsed = parse_job(job, ""); !parsed) return stream.json(error_message(parsed.error()));
-  SolverRequest request{.what = "place", .folder = model.folder.string(), .job = job, .wish = ask.wish};
-  switch (errand) {
-    case Errand::stand:
-      return stand(ask, model, stream);
-    case Errand::validate:
-      if (ask.of == "result") return validate_result(ask, model, stream);
-      request.what = "validate";
-      break;
-    case Errand::check:
-      request.what = "check";
-      break;
-    case Errand::preview:
-      request.what = "preview";
-      break;
-    case Errand::place:
-      break;
-  }
-  resident_.answer(request, stream);
-}
-
-void Routes::stand(const Ask& ask, const Model& model, Stream& stream) {
-  const fs::path folder = places_.models / fmt::format("run-{}", ++runs_);  // one at a time: see Turns
-  auto made = run_whole(places_.aplomb, folder, model, ask.job, stream, resident_);
-  std::error_code ignored;
-  const std::lock_guard lock(made_mutex_);
-  if (made) std::swap(made, made_), made_of_ = ask;
-  else made = Made{folder, model.stem()};
-  if (made) fs::remove_all(made->folder, ignored);
-}
-
-/// The file that was written, as it is: it was placed when it was made.
-void Routes::validate_result(const Ask& ask, const Model& model, Stream& stream) {
-  const auto made = made_of(ask);
-  if (!made || !fs::exists(made->mesh()))
-    return stream.json(
-        error_message(static_cast<int>(Ending::usage), "make it stand first: there is no result of this job"));
-  Json job = Json::parse(job_file_text(ask.job, model, false, false));
-  job["model"] = made->mesh().filename().string();
-  job.erase("place");
-  job.erase("profile");
-  resident_.answer({.what = "validate", .folder = made->folder.string(), .job = job.dump()}, stream);
 }
 
 }  // namespace aplomb::studio

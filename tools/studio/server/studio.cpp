@@ -79,6 +79,10 @@ int run_studio(const StudioOptions& options) {
   server.new_task_queue = [] { return new httplib::ThreadPool(workers); };  // the server deletes it
   server.set_keep_alive_max_count(1);  // what follows a body that was refused is no request
   server.set_tcp_nodelay(true);
+  server.set_socket_options([](int socket) {  // the library's own would share the port with others
+    const int on = 1;
+    setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+  });
   server.set_write_timeout(30);
   constexpr const char* host = "127.0.0.1";
   const int port = options.port == 0 ? server.bind_to_any_port(host) : options.port;
