@@ -9,7 +9,7 @@ import {angleIn, drawn, openPage, programs, verdict} from './support/studio.mjs'
 export function opening(bench) {
   test('the empty page invites, a fixture is weighed at once, and the page keeps to its content policy', async () => {
     const page = await openPage(bench.browser, bench.empty.address);
-    await page.getByText('Drop a model here').waitFor();
+    await page.locator('.welcome').waitFor();
     await page.click('[data-fixture="trex.stl"]');
     assert.match(await verdict(page), /^Falls to the right: \u22122\.2 degrees/);
     assert.equal(await page.locator('.welcome').isVisible(), false);

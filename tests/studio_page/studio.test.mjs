@@ -11,7 +11,7 @@ import {making} from './making.mjs';
 import {opening} from './opening.mjs';
 import {shaping} from './shaping.mjs';
 
-const coarse = {aplomb_job: 1, model: 'trex.stl', voxel_mm: 0.8};
+const coarse = {aplomb_job: 1, model: 'trex.stl', voxel_mm: 0.8, ceiling: 'any'};
 const bench = {}; // browser, empty, coarse: filled before the first test
 
 describe('studio', () => {

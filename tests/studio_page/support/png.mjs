@@ -1,5 +1,5 @@
-// Pixels of a PNG of 8 bits a channel, as the browser makes it: enough to count colours.
-import {inflateSync} from 'node:zlib';
+// PNGs of 8 bits a channel, as the browser makes them: enough to count colours, and to make them small.
+import {deflateSync, inflateSync} from 'node:zlib';
 
 /** \return width, height and a function that gives red, green and blue at x, y. */
 export function decodePng(bytes) {
@@ -30,4 +30,50 @@ export function countPixels(image, test, {left = 0, top = 0, right = image.width
   let count = 0;
   for (let y = top; y < bottom; ++y) for (let x = left; x < right; ++x) if (test(...image.at(x, y))) ++count;
   return count;
+}
+
+/** A PNG of at most 256 colours, the most frequent ones: screenshots have few. */
+export function encodePalettePng({width, height, at}) {
+  const counts = new Map(), keyAt = (x, y) => at(x, y).reduce((key, value) => (key << 8) | (value & 0xfc), 0);
+  for (let y = 0; y < height; ++y) for (let x = 0; x < width; ++x) counts.set(keyAt(x, y), (counts.get(keyAt(x, y)) ?? 0) + 1);
+  const palette = [...counts].sort((a, b) => b[1] - a[1]).slice(0, 256).map(([key]) => key), nearest = new Map();
+  const indexOf = (key) => {
+    if (!nearest.has(key)) nearest.set(key, nearestIndex(palette, key));
+    return nearest.get(key);
+  };
+  const rows = Buffer.alloc(height * (width + 1));
+  for (let y = 0; y < height; ++y) for (let x = 0; x < width; ++x) rows[y * (width + 1) + 1 + x] = indexOf(keyAt(x, y));
+  const head = Buffer.alloc(13);
+  head.writeUInt32BE(width, 0);
+  head.writeUInt32BE(height, 4);
+  head.set([8, 3, 0, 0, 0], 8);
+  const colors = Buffer.from(palette.flatMap((key) => [key >> 16, (key >> 8) & 255, key & 255].map((value) => value | (value >> 6))));
+  return Buffer.concat([Buffer.from([137, 80, 78, 71, 13, 10, 26, 10]), part('IHDR', head), part('PLTE', colors),
+                        part('IDAT', deflateSync(rows, {level: 9})), part('IEND', Buffer.alloc(0))]);
+}
+
+function nearestIndex(palette, key) {
+  let best = 0, least = Infinity;
+  palette.forEach((color, index) => {
+    const away = [16, 8, 0].reduce((sum, shift) => sum + (((color >> shift) & 255) - ((key >> shift) & 255)) ** 2, 0);
+    if (away < least) [best, least] = [index, away];
+  });
+  return best;
+}
+
+function part(name, data) {
+  const body = Buffer.concat([Buffer.from(name, 'latin1'), data]), framed = Buffer.alloc(body.length + 8);
+  framed.writeUInt32BE(data.length, 0);
+  body.copy(framed, 4);
+  framed.writeInt32BE(checksum(body), body.length + 4);
+  return framed;
+}
+
+function checksum(bytes) {
+  let sum = ~0;
+  for (const byte of bytes) {
+    sum ^= byte;
+    for (let bit = 0; bit < 8; ++bit) sum = sum & 1 ? (sum >>> 1) ^ 0xedb88320 : sum >>> 1;
+  }
+  return ~sum;
 }

@@ -26,13 +26,17 @@ export class PreviewFlow {
   /** A hand takes hold: previews are counted from here on. */
   begin(): void {
     this.#arrivals = [];
+    performance.clearMarks('aplomb-wish');
+    performance.clearMarks('aplomb-preview-drawn');
   }
 
   ask(): void {
     const model = this.documents.doc.model, job = this.documents.job;
     if (!model) return;
-    if (bends(job)) this.#newest.ask({model: model.id, job, number: ++this.#number});
-    else {
+    if (bends(job)) {
+      performance.mark('aplomb-wish', {detail: ++this.#number});
+      this.#newest.ask({model: model.id, job, number: this.#number});
+    } else {
       this.#newest.cancel();
       this.results.patch({preview: null});
     }

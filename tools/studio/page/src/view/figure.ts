@@ -55,7 +55,7 @@ export class Figure {
     const low = new Vector3(0, 0, 1).applyQuaternion(this.pose.quaternion.clone().invert());
     const lowest = this.outside?.lowest(low.x, low.y, low.z) ?? 0;
     this.pose.position.set(0, 0, Number.isFinite(lowest) ? lift - lowest : 0);
-    this.pose.updateMatrixWorld();
+    this.pose.updateWorldMatrix(true, true); // what it stands in may just have been put back
   }
 
   /** Its box on the plate of the pose. */

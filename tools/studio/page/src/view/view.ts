@@ -3,7 +3,7 @@ import {Group, Vector3} from 'three';
 import type {DocumentStore} from '../state/document';
 import {type Vec3, bends, posesOf, poseUp} from '../state/job';
 import type {UiStore} from '../state/ui';
-import {type ResultsStore, freshPreview, freshStand, shownJudgement} from '../results/results';
+import {type ResultsStore, freshStand, shownJudgement} from '../results/results';
 import {figuresOf} from '../results/verdict';
 import {degrees, wayOf} from '../results/words';
 import {type Balance, counterclockwise} from './balance';
@@ -56,7 +56,14 @@ export class View {
     documents.state.subscribe(() => this.update());
     results.subscribe(() => this.update());
     ui.subscribe(() => this.update());
+    this.stage.afterDraw.add(() => this.#mark());
     this.repaint();
+  }
+
+  /** Says when a picture was drawn, for who measures (User Timing). */
+  #mark(): void {
+    if (this.#toMark) performance.mark(this.#toMark.name, {detail: this.#toMark.wish});
+    this.#toMark = null;
   }
 
   /** Takes the colours anew, as when light turns to dark. */
@@ -76,6 +83,7 @@ export class View {
         ? {outside: stand.outside, voids: stand.voids, dense: stand.dense}
         : {outside: results.placed!.mesh, voids: [], dense: null};
     const isOther = this.figure.show(surfaces);
+    if (isOther && surfaces) this.#toMark = {name: 'aplomb-model-drawn', wish: 0};
     this.#bend(surfaces, isOther);
     const index = Math.min(ui.pose, posesOf(job).length - 1), pose = posesOf(job)[index]!;
     const {height} = this.#size();
@@ -93,21 +101,21 @@ export class View {
   #bend(surfaces: Surfaces | null, isOther: boolean): void {
     const {outside} = this.figure;
     if (!outside) return;
-    const model = this.documents.doc.model, job = this.documents.job;
+    const job = this.documents.job;
     const preview = bends(job) && surfaces?.outside === this.results.value.placed?.mesh ? this.results.value.preview : null;
     const positions = preview?.positions?.length === outside.positions.length ? preview.positions : null;
-    const settled = preview && freshPreview(this.results.value, {model, job});
     if (isOther || positions !== this.#bent) {
       if (positions || this.#bent) {
         this.moved_mm = outside.move(positions);
         this.picker.moved();
-        if (settled) performance.mark('aplomb-preview-shown', {detail: settled.preview.wish});
+        this.#toMark = preview ? {name: 'aplomb-preview-drawn', wish: preview.preview.wish} : null;
       }
       this.#bent = positions;
     }
     if (!positions) this.moved_mm = 0;
   }
   #bent: Float32Array | null = null;
+  #toMark: {name: string; wish: number} | null = null; // what the next picture shows for the first time
 
   #size(): {height: number; largest: number} {
     const box = this.results.value.placed?.placed.box_mm;
