@@ -35,7 +35,7 @@ class BendPreview {
   struct Options {
     ReshapeOptions reshape{};  ///< its regions do not count
     RowKind kind = RowKind::nominal;
-    std::size_t samples = 12000;  ///< of the cage, >= 1000: fewer are faster
+    std::size_t samples = 10000;  ///< of the cage, >= 1000: fewer are faster
   };
 
   /// \pre  find_problem(options.reshape) and find_problem(poses) are empty.
@@ -48,7 +48,8 @@ class BendPreview {
   ///
   /// \pre  find_problem(wish.regions) is empty; `from` is empty or of a stage of this preview.
   /// \return as mark_regions() and deform_cage().
-  /// \par Cost  About 30 ms a step, and 0.1 ms for 1000 vertices.
+  /// \par Cost  About 30 ms of CPU a step, twice that at the limit of the mean displacement, and 0.2 ms for 1000
+  /// vertices.
   Result<BendStage> advance(const BendWish& wish, const std::vector<Vec3>& from, const Job& job = {}) const;
 
   const JointProblem& joint() const;

@@ -63,6 +63,7 @@ Result<Child> Child::start(const std::vector<std::string>& command, const std::f
   for (const Pipe* pipe : {&in, &out, &err})
     if (pipe->ends[0] < 0) return fail(ErrorCode::file_system, "no pipe can be made for a child process");
   std::vector<char*> words;
+  words.reserve(command.size() + 1);
   for (const std::string& word : command) words.push_back(const_cast<char*>(word.c_str()));  // as exec() wants it
   words.push_back(nullptr);
   const pid_t parent = getpid(), id = fork();

@@ -14,7 +14,7 @@ void refuse(httplib::Response& response, Status status, Ending ending, std::stri
   response.set_content(said.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), "application/json");
 }
 
-void answer_file(httplib::Response& response, std::string bytes, std::string_view name, const char* type) {
+void answer_file(httplib::Response& response, const std::string& bytes, std::string_view name, const char* type) {
   std::string plain, coded;
   for (const char c : name) {
     const bool is_plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '-' || c == '_';
@@ -23,7 +23,7 @@ void answer_file(httplib::Response& response, std::string bytes, std::string_vie
   }
   response.set_header("Content-Disposition",
                       fmt::format("attachment; filename=\"{}\"; filename*=UTF-8''{}", plain, coded));
-  response.set_content(std::move(bytes), type);
+  response.set_content(bytes, type);
 }
 
 }  // namespace aplomb::studio

@@ -18,6 +18,6 @@ enum Status { no_content = 204, bad_request = 400, not_found = 404, conflict = 4
 void refuse(httplib::Response& response, Status status, Ending ending, std::string_view sentence);
 
 /// A file to be kept under `name`, which may be any text.
-void answer_file(httplib::Response& response, std::string bytes, std::string_view name, const char* type);
+void answer_file(httplib::Response& response, const std::string& bytes, std::string_view name, const char* type);
 
 }  // namespace aplomb::studio

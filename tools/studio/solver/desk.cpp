@@ -22,7 +22,7 @@ std::string key_of(const StandOptions& options) {
       for (const auto& contact : standing->contacts) added.contacts.push_back({contact.center_mm, contact.radius_mm});
   }
   bending.options.robust = options.robust;
-  bending.options.deform = options.deform;
+  bending.options.deform = options.deform == Deform::only ? Deform::only : Deform::automatic;
   bending.options.wall_mm = options.wall_mm;
   bending.options.reshape.most_mean_percent = options.reshape.most_mean_percent;
   return to_json(bending, ".");

@@ -16,6 +16,8 @@ class Desk {
   /// The solid of a job, from the file only where another one was asked for before. \return as load_solid().
   Result<const Input*> solid(const std::string& folder, const JobFile& asked, const Job& job);
 
+  bool has_solid() const { return solid_.has_value(); }
+
   /// What bends that solid for the poses of a job, made where it is not there yet. \return as BendPreview::make().
   Result<const BendPreview*> bender(const Input& input, const StandOptions& options, const Job& job);
 

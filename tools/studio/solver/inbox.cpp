@@ -51,4 +51,9 @@ SolverRequest Inbox::next() {
   return request;
 }
 
+bool Inbox::has_other_than_preview() {
+  const std::lock_guard lock(mutex_);
+  return !waiting_.empty() && waiting_.front().what != "preview";
+}
+
 }  // namespace aplomb::studio

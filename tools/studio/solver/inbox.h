@@ -33,6 +33,8 @@ class Inbox {
   explicit Inbox(int file);
   /// Waits for the next request.
   SolverRequest next();
+  /// Whether something waits that is no preview.
+  bool has_other_than_preview();
   bool is_cancelled(const SolverRequest& request) const { return request.number <= cancelled_.load(); }
 
  private:

@@ -75,8 +75,9 @@ Result<void> preview(const JobFile& job, double wish, const Input& input, Desk& 
   const StandOptions options = stand_options(job, input.solid.box().size().z);
   const auto bender = desk.bender(input, options, work);
   if (!bender) return tl::unexpected(bender.error());
-  const BendWish asked{.regions = options.reshape.regions, .balances = options.deform != Deform::never};
+  BendWish asked{.regions = options.reshape.regions, .balances = options.deform != Deform::never};
   for (int n = 0; n < most_stages; ++n) {
+    asked.most_steps = n == 0 ? 1 : 2;  // the first answer is the one that is waited for
     auto stage = (*bender)->advance(asked, desk.bent, work);
     if (!stage) return tl::unexpected(stage.error());
     const auto message = message_of(*stage, (*bender)->joint(), options, wish);

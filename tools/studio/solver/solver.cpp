@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
-#include <numeric>
+#include <tuple>
 
 #include "aplomb/ending.h"
 #include "aplomb/io/write_mesh.h"
@@ -54,9 +54,24 @@ std::string placed_message(const Input& input) {
   return message.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+JobFile limited(JobFile job) {
+  job.input.read.max_triangles = std::min(job.input.read.max_triangles, most_triangles);
+  return job;
+}
+
 class Solver {
  public:
   Solver(Outbox& out, Desk& desk, const SolverRequest& request) : out_(out), desk_(desk), request_(request) {}
+
+  /// Makes the cage before the first drag asks for it, unless something else is asked for.
+  void get_ready(Inbox& inbox) {
+    if ((request_.what != "place" && request_.what != "check") || !desk_.has_solid()) return;
+    const Job work([&inbox](double, std::string_view) { return !inbox.has_other_than_preview(); });
+    const auto job = parse_bending_job(request_.job);
+    if (!job) return;
+    const auto input = desk_.solid(request_.folder, limited(*job), work);
+    if (input) std::ignore = desk_.bender(**input, stand_options(*job, (*input)->solid.box().size().z), work);
+  }
 
   Result<void> answer() {
     std::error_code moved;
@@ -65,7 +80,7 @@ class Solver {
     if (request_.what == "result") return show_result();
     auto job = request_.what == "preview" ? parse_bending_job(request_.job) : parse_job(request_.job, "");
     if (!job) return tl::unexpected(job.error());
-    job->input.read.max_triangles = std::min(job->input.read.max_triangles, most_triangles);
+    *job = limited(std::move(*job));
     if (request_.what == "place") return place(*job);
     if (request_.what == "check") return check(*job);
     if (request_.what == "validate") return validate(*job);
@@ -152,8 +167,10 @@ int run_solver() {
     const SolverRequest request = inbox.next();
     Outbox out(answers, inbox, request);
     try {
-      if (const auto answered = Solver(out, desk, request).answer(); !answered)
-        out.json(error_message(answered.error()));
+      Solver solver(out, desk, request);
+      if (const auto answered = solver.answer(); !answered) out.json(error_message(answered.error()));
+      out.end();
+      solver.get_ready(inbox);
     } catch (const std::bad_alloc&) {
       std::cerr << "aplomb: memory ran out\n";
       return static_cast<int>(Ending::over_budget);
@@ -161,7 +178,6 @@ int run_solver() {
       std::cerr << "aplomb: internal error: " << error.what() << '\n';
       return static_cast<int>(Ending::internal);
     }
-    out.end();
   }
 }
 
