@@ -85,7 +85,8 @@ Result<Input> load_solid(const MeshFile& file, const InputOptions& options, cons
     return fail(ErrorCode::unusable_input, std::move(several));
   if (view) view("3-solid", repaired->solid.mesh());
   clock.lap("repair");
-  Input input{repaired->solid, repaired->solid.moments(), std::move(repaired->report), file.notes, seconds};
+  Input input{repaired->solid,  repaired->solid.moments(), std::move(repaired->report), file.notes, seconds, {},
+              placed->transform};
   if (!options.placement.up && options.hint_at_resting)
     if (const auto hint = resting_hint(input.solid.mesh(), input.moments, {})) input.notes.push_back(to_text(*hint));
   return input;

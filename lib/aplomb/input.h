@@ -31,6 +31,7 @@ struct Input {
   std::vector<std::string> notes;  ///< what was odd about the file, and what looks like a mistake
   StageSeconds stage_seconds;      ///< read and repair
   std::vector<Region> inserts{};   ///< that lie in voids of the solid, and weigh besides it
+  Affine3 from_file{};             ///< takes what was read, in mm, to where it was placed
 };
 
 /// Told what each stage made, for those who want to look: a name such as "2-solid" and the mesh.

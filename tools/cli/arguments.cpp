@@ -99,6 +99,7 @@ Parsed parse_arguments(int argc, char** argv) {
       {Command::validate, app.add_subcommand("validate", "judge whether a mesh prints, as it is")},
       {Command::verify, app.add_subcommand("verify", "measure what a G-code file prints, and whether that stands")},
       {Command::run, app.add_subcommand("run", "run a job file")}};
+  app.add_subcommand("studio", "open an editor in the browser");  // another program: see main()
   for (const auto& [command, sub] : commands)
     if (command == Command::run) add_job_flags(sub, overrides, a);
     else if (command == Command::verify) add_verify_flags(sub, a);

@@ -52,8 +52,9 @@ void say(const Arguments& a, const std::string& text, bool is_answer) {
   if (!a.quiet) fmt::print(is_answer && a.job.report != "-" ? stdout : stderr, "{}", text);
 }
 
-/// Completes the report with what only the program knows, and writes it where it was asked for.
-Result<void> publish(Report& report, const Arguments& a) {
+/// Completes the report with what only the program knows, and writes it where it was asked for: before pictures and
+/// pages, which take their time, so that a program that waits for it need not.
+Result<void> publish(Report report, const Arguments& a) {
   for (const auto& [flag, value] : a.given) report.options.emplace_back(flag, value);
   report.peak_memory_mb = peak_memory_mb();
   say(a, to_text(report), a.job.output.empty());
@@ -187,11 +188,11 @@ int run_stand(const Arguments& a, const Input& input, const StandOptions& option
     report = std::move(*measured);
     report.stage_seconds = std::move(seconds);
   }
+  if (const auto published = publish(report, a); !published) return report_error(published.error());
   if (const auto drawn = draw(a, input, writes ? &*made : nullptr, options, job.part(0.9, 0.95)); !drawn)
     return report_error(drawn.error());
   if (const auto paged = write_page(a, report, input, writes ? &*made : nullptr, options, job.part(0.95, 1)); !paged)
     return report_error(paged.error());
-  if (const auto published = publish(report, a); !published) return report_error(published.error());
   return exit_code(ending_of(report));
 }
 

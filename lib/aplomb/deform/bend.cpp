@@ -38,10 +38,17 @@ std::vector<Vec3> between(const std::vector<Vec3>& from, const std::vector<Vec3>
   return out;
 }
 
-/// The ground is soft to the cage: what is left to sink is put on the plate.
-void lift_onto(TriangleMesh& mesh, const GroundPlane& ground) {
-  for (Vec3& v : mesh.vertices)
-    if (const double height = dot(ground.up, v) - ground.plate_mm; height < 0) v += -height * ground.up;
+/// What a pose holds where it is.
+void hold(const Pose& pose, const SolidMesh& solid, BendProblem& problem) {
+  if (const StandingPose* standing = pose.standing()) {
+    const auto touching = vertices_near_plate(solid.mesh(), standing->up, standing->contact_height_mm);
+    for (std::size_t v = 0; v < touching.size(); ++v)
+      if (touching[v]) problem.held[v] = true;
+    problem.grounds.push_back({standing->up, lowest_mm(solid.mesh(), standing->up)});
+  } else {
+    const auto& points = pose.hanging()->attachments_mm;
+    problem.anchors.insert(problem.anchors.end(), points.begin(), points.end());
+  }
 }
 
 }  // namespace
@@ -61,6 +68,30 @@ std::vector<bool> vertices_near_plate(const TriangleMesh& mesh, Vec3 up, double 
   return near;
 }
 
+BendProblem bend_problem(const SolidMesh& solid, std::span<const Pose> poses, const BalanceProblem& balance,
+                         const Regions& regions) {
+  BendProblem problem{balance, std::vector<bool>(solid.mesh().vertices.size()), {}, {}, regions};
+  for (const Pose& pose : poses) hold(pose, solid, problem);
+  return problem;
+}
+
+CageProblem cage_problem(const Cage& cage, const SolidMesh& solid, const BendProblem& problem) {
+  CageProblem bending;
+  bending.rest = cage.mesh();
+  bending.solid_share = cage.solid_share();
+  bending.stiffness.assign(cage.mesh().tets.size(), 1);
+  bending.fixed = fixed_vertices(cage, solid, problem);
+  bending.samples = cage.samples();
+  bending.balance = problem.balance;
+  bending.grounds = problem.grounds;
+  return bending;
+}
+
+void lift_onto(TriangleMesh& mesh, const GroundPlane& ground) {
+  for (Vec3& v : mesh.vertices)
+    if (const double height = dot(ground.up, v) - ground.plate_mm; height < 0) v += -height * ground.up;
+}
+
 Result<Bender> Bender::make(const SolidMesh& solid, const BendProblem& problem, const CageOptions& options,
                             const Job& job) {
   assert(problem.held.size() == solid.mesh().vertices.size());
@@ -68,15 +99,8 @@ Result<Bender> Bender::make(const SolidMesh& solid, const BendProblem& problem, 
   if (!cage) return tl::unexpected(cage.error());
   auto motion = SurfaceMotion::make(*cage, solid.mesh());
   if (!motion) return tl::unexpected(motion.error());
-  CageProblem bending;
-  bending.rest = cage->mesh();
-  bending.solid_share = cage->solid_share();
-  bending.stiffness.assign(cage->mesh().tets.size(), 1);
-  bending.fixed = fixed_vertices(*cage, solid, problem);
+  CageProblem bending = cage_problem(*cage, solid, problem);
   if (const auto marked = mark_regions(*cage, problem.regions, bending); !marked) return tl::unexpected(marked.error());
-  bending.samples = cage->samples();
-  bending.balance = problem.balance;
-  bending.grounds = problem.grounds;
   return Bender(std::make_shared<const Parts>(
       Parts{solid, std::move(*cage), std::move(*motion), std::move(bending), problem.held}));
 }

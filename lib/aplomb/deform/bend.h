@@ -1,9 +1,10 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
-#include "aplomb/balance/balance_problem.h"
+#include "aplomb/balance/poses.h"
 #include "aplomb/core/error.h"
 #include "aplomb/core/job.h"
 #include "aplomb/deform/cage.h"
@@ -21,6 +22,16 @@ struct BendProblem {
   std::vector<GroundPlane> grounds;  ///< the plates of the poses
   Regions regions{};                 ///< what the user wants of parts of it
 };
+
+/// What the poses hold of a solid where it is, and the rows of `balance`.
+BendProblem bend_problem(const SolidMesh& solid, std::span<const Pose> poses, const BalanceProblem& balance,
+                         const Regions& regions);
+
+/// The cage's part of a problem, its regions left out: see mark_regions(). \pre as Bender::make().
+CageProblem cage_problem(const Cage& cage, const SolidMesh& solid, const BendProblem& problem);
+
+/// The ground is soft to a cage: puts what is left to sink on the plate.
+void lift_onto(TriangleMesh& mesh, const GroundPlane& ground);
 
 /// The vertices up to height_mm above the plane through the lowest point: what a standing pose holds.
 std::vector<bool> vertices_near_plate(const TriangleMesh& mesh, Vec3 up, double height_mm);

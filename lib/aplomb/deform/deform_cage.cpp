@@ -70,9 +70,10 @@ class CageDeformer {
         goal_(problem.required_t + t_margin) {}
 
   Result<CageDeformation> run(const Job& job) {
-    auto carved = samples_.best_carving(problem_.rest.vertices);
+    const std::vector<Vec3>& start = problem_.start.empty() ? problem_.rest.vertices : problem_.start;
+    auto carved = samples_.best_carving(start);
     if (!carved) return tl::unexpected(carved.error());
-    now_ = {problem_.rest.vertices, energy_.value(problem_.rest.vertices), std::move(*carved)};
+    now_ = {start, energy_.value(start), std::move(*carved)};
     if (energy_.free().unknowns() == 0) return result(false);
     auto factors = adapters::SparseCholesky::analyse(energy_.hessian(now_.vertices));
     if (!factors) return tl::unexpected(factors.error());
@@ -297,6 +298,7 @@ Result<CageDeformation> deform_cage(const CageProblem& problem, const DeformOpti
   assert(problem.solid_share.size() == problem.rest.tets.size() &&
          problem.stiffness.size() == problem.rest.tets.size());
   assert(problem.fixed.size() == problem.rest.vertices.size());
+  assert(problem.start.empty() || problem.start.size() == problem.rest.vertices.size());
   assert(!problem.balance.rows.empty() && !problem.samples.empty());
   return CageDeformer(problem, options, listener).run(job);
 }

@@ -39,6 +39,7 @@ struct CageProblem {
   double required_t = 0;
   std::vector<GroundPlane> grounds;
   std::vector<SoftHandle> handles;
+  std::vector<Vec3> start{};  ///< of the vertices, where the search begins, within most_mean_mm; empty: at rest
 };
 
 struct DeformOptions {
@@ -91,7 +92,9 @@ using DeformListener = std::function<void(const std::vector<Vec3>& vertices, dou
 /// A row whose b is zero (it holds or does not, whatever t is) counts as  a - (t - required_t) size: the same condition
 /// at required_t, and a distance to it elsewhere.
 ///
-/// \pre  find_problem(options) is empty; tetrahedra are positively oriented; sizes agree; balance has rows.
+/// \pre  find_problem(options) is empty; tetrahedra are positively oriented, at the start, too; there, fixed vertices
+/// are
+///       at rest; sizes agree; balance has rows.
 /// \post No tetrahedron is inverted; fixed vertices are where they were; mean_mm <= most_mean_mm.
 /// \post Every accepted iterate is better than the one before by energy + penalty x what is missing of required_t.
 /// \return cancelled, third_party, internal.

@@ -20,10 +20,6 @@ const StandingPose* cut_pose(const std::vector<Pose>& poses) {
   return standing && standing->up == Vec3{0, 0, 1} ? standing : nullptr;
 }
 
-double wall_of(const SolidMesh& solid, const ReshapeOptions& options) {
-  return options.carves ? options.wall_mm : solid.box().diagonal();
-}
-
 struct Trims {
   std::vector<TrimGain> gains;
   double chosen_mm = 0;
@@ -45,22 +41,6 @@ Result<Trims> choose_trim(const SolidMesh& solid, const StandingPose& pose, RowK
   return Trims{std::move(*gains), chosen_trim_mm(allowed, std::tan(pose.required_tip_rad))};
 }
 
-/// What a pose holds where it is.
-void hold(const Pose& pose, const SolidMesh& solid, BendProblem& problem) {
-  if (const StandingPose* standing = pose.standing()) {
-    const auto touching = vertices_near_plate(solid.mesh(), standing->up, standing->contact_height_mm);
-    double plate = dot(standing->up, solid.mesh().vertices.front());
-    for (std::size_t v = 0; v < touching.size(); ++v) {
-      if (touching[v]) problem.held[v] = true;
-      plate = std::min(plate, dot(standing->up, solid.mesh().vertices[v]));
-    }
-    problem.grounds.push_back({standing->up, plate});
-  } else {
-    const auto& points = pose.hanging()->attachments_mm;
-    problem.anchors.insert(problem.anchors.end(), points.begin(), points.end());
-  }
-}
-
 }  // namespace
 
 struct Reshaper::Parts {
@@ -80,6 +60,10 @@ std::string find_problem(const ReshapeOptions& o) {
   if (std::string problem = find_problem(o.regions); !problem.empty()) return problem;
   if (!(o.wall_mm > 0)) return fmt::format("wall_mm is {}; it must be positive", o.wall_mm);
   return {};
+}
+
+double wall_of(const SolidMesh& solid, const ReshapeOptions& options) {
+  return options.carves ? options.wall_mm : solid.box().diagonal();
 }
 
 Result<Reshaper> Reshaper::make(const SolidMesh& solid, const std::vector<Pose>& poses, RowKind kind,
@@ -104,8 +88,7 @@ Result<Reshaper> Reshaper::make(const SolidMesh& solid, const std::vector<Pose>&
   if (!joint) return tl::unexpected(joint.error());
   parts.required_t = joint->required_t;
   parts.options.most_mean_mm = options.most_mean_percent / 100 * solid.box().size().z;
-  BendProblem problem{joint->problem, std::vector<bool>(parts.solid.mesh().vertices.size()), {}, {}, options.regions};
-  for (const Pose& pose : poses) hold(pose, parts.solid, problem);
+  const BendProblem problem = bend_problem(parts.solid, poses, joint->problem, options.regions);
   auto bender = Bender::make(parts.solid, problem, {.wall_mm = wall_of(solid, options)}, job.part(0.5, 1));
   if (!bender) return tl::unexpected(bender.error());
   parts.bender = std::move(*bender);

@@ -22,6 +22,9 @@ struct ReshapeOptions {
 /// A sentence that names field, value and range; empty when there is nothing to say.
 std::string find_problem(const ReshapeOptions& options);
 
+/// What is nearer to the outside stays: all of it where nothing is carved.
+double wall_of(const SolidMesh& solid, const ReshapeOptions& options);
+
 /// What was done to the outside.
 struct Reshaping {
   SolidMesh solid;

@@ -1,6 +1,7 @@
 #include "aplomb/deform/surface_motion.h"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cassert>
@@ -85,7 +86,8 @@ TriangleMesh SurfaceMotion::moved(const std::vector<Vec3>& moved_mm) const {
   assert(moved_mm.size() == rest_.vertices.size());
   const std::vector<Mat3> gradients = vertex_gradients(rest_, solid_share_, moved_mm);
   TriangleMesh out = surface_;
-  for (std::size_t n = 0; n < points_.size(); ++n) out.vertices[n] = moved_point(n, moved_mm, gradients);
+  tbb::parallel_for(std::size_t{0}, points_.size(),
+                    [&](std::size_t n) { out.vertices[n] = moved_point(n, moved_mm, gradients); });
   return rounded_to_float(std::move(out));
 }
 

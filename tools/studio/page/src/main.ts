@@ -1,0 +1,95 @@
+import './style/palette.css';
+import './style/layout.css';
+import './style/panel.css';
+import './style/marks.css';
+
+import {listenToKeys} from './keyboard';
+import {dialog, keysTable} from './panels/dialogs';
+import {h} from './panels/dom';
+import type {Part} from './panels/fields';
+import {findingsPanel} from './panels/findings';
+import {foot, save} from './panels/foot';
+import {noticeBar} from './panels/notice';
+import {numbersPanel} from './panels/numbers';
+import {posePanel} from './panels/pose_tabs';
+import {toolRail} from './panels/rail';
+import {makingPanel, placePanel} from './panels/settings';
+import {shapePanel} from './panels/shapes';
+import {topBar} from './panels/top_bar';
+import {verdictLine} from './panels/verdict_line';
+import {viewBar} from './panels/view_bar';
+import {invitation, takeDrops} from './panels/welcome';
+import {Conductor} from './results/conductor';
+import {type Results, nothing} from './results/results';
+import {standAtOnce} from './results/at_once';
+import {type Start, withoutVersion} from './start';
+import {DocumentStore} from './state/document';
+import {Signal} from './state/signal';
+import {newUi} from './state/ui';
+import {Theme} from './theme';
+import type {Bench} from './tools/tool';
+import {Toolbox} from './tools/toolbox';
+import {Client} from './transport/client';
+import {View} from './view/view';
+
+const root = document.getElementById('studio') as HTMLElement;
+
+/** The whole page over a server that has let it in. */
+function build(client: Client, start: Start): void {
+  const documents = new DocumentStore(), results = new Signal<Results>(nothing), ui = newUi();
+  const conductor = new Conductor(client, documents, results);
+  const canvas = h('canvas', {'aria-label': 'The model on its plate', role: 'img'});
+  const marks = h('div', {class: 'marks'}), room = h('main', {class: 'room'}, canvas, marks);
+  root.replaceChildren(room);
+  const view = new View(canvas, marks, documents, results, ui);
+  const theme = new Theme(() => view.repaint());
+  const bench: Bench = {documents, results, ui, view, conductor};
+  const toolbox = new Toolbox(bench);
+
+  const opening = dialog('Open', invitation(start, conductor, () => opening.close()));
+  const keys = dialog('Keys', keysTable());
+  const actions = {
+    open: () => opening.showModal(), help: () => keys.showModal(), save: () => void save(bench, client, '3mf'),
+  };
+  const welcome = h('section', {class: 'welcome', 'aria-label': 'Open a model'}, invitation(start, conductor, () => undefined));
+  const rail = toolRail(bench, toolbox), bar = viewBar(bench), notice = noticeBar(bench);
+  const top = topBar(bench, verdictLine(documents, results, ui), theme, actions);
+  const scrolled = [posePanel(bench), makingPanel(bench, start), placePanel(bench), shapePanel(bench), findingsPanel(bench), numbersPanel(bench)];
+  const last = foot(bench, client);
+  room.append(welcome, notice.element, rail.element, rail.hint, bar.element);
+  const panel = h('aside', {class: 'panel', 'aria-label': 'The job'}, h('div', {class: 'scrolled'}, ...scrolled.map((part) => part.element)), last.element);
+  root.replaceChildren(top.element, room, panel, opening, keys);
+
+  const parts: Part[] = [top, rail, bar, notice, ...scrolled, last];
+  const update = () => {
+    const isEmpty = documents.doc.model === null;
+    welcome.hidden = !isEmpty;
+    root.classList.toggle('empty', isEmpty);
+    for (const part of parts) part.update();
+  };
+  for (const store of [documents.state, results, ui]) (store as Signal<unknown>).subscribe(update);
+  update();
+  takeDrops(room, conductor);
+  standAtOnce(bench);
+  listenToKeys(bench, toolbox, actions);
+  if (start.model) documents.open(start.model, withoutVersion(start.job));
+}
+
+/** The page of who has no right to be here, or finds nobody here. */
+function turnAway(error: unknown): void {
+  const sentence = error instanceof Error ? error.message : String(error);
+  root.replaceChildren(h('main', {class: 'turned-away', role: 'alert'}, h('h1', {}, 'Aplomb Studio'), h('p', {}, sentence)));
+  document.documentElement.dataset.theme = matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light';
+}
+
+async function begin(): Promise<void> {
+  const client = new Client(location.hash.slice(1));
+  try {
+    build(client, await client.json<Start>('/api/start'));
+  } catch (error) {
+    turnAway(error);
+  }
+}
+
+addEventListener('hashchange', () => location.reload());
+void begin();

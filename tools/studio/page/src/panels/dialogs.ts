@@ -1,0 +1,17 @@
+import {keyList} from '../keyboard';
+import {h, icon} from './dom';
+import {icons} from './icons';
+
+/** A dialog with a title; Escape and a press beside it close it. */
+export function dialog(title: string, body: HTMLElement): HTMLDialogElement {
+  const close = h('button', {class: 'round', 'aria-label': 'Close', onclick: () => element.close()}, icon(icons.close));
+  const element = h('dialog', {'aria-label': title, onclick: (event: MouseEvent) => {
+    if (event.target === element) element.close();
+  }}, h('div', {class: 'dialog-body'}, h('div', {class: 'dialog-head'}, h('h2', {}, title), close), body));
+  return element;
+}
+
+export function keysTable(): HTMLElement {
+  return h('table', {class: 'keys'}, ...keyList.map(([keys, does]) =>
+    h('tr', {}, h('th', {scope: 'row'}, ...keys.split(' ').flatMap((key) => [h('kbd', {}, key.replace(',', '')), ' '])), h('td', {}, does))));
+}

@@ -1,0 +1,106 @@
+import type {Bench} from '../tools/tool';
+import {type Pose, edited, poseName, posesOf, vectorOf, withHang, withPose, withStand} from '../state/job';
+import {verdictOf} from '../results/verdict';
+import {h, icon} from './dom';
+import {type Part, choiceField, numberField, paired} from './fields';
+import {icons} from './icons';
+
+const ways: readonly (readonly [string, string])[] = [
+  ['', 'as it is placed'], ['-z', 'upside down'], ['x', 'its right side up (+x)'], ['-x', 'its left side up (−x)'],
+  ['y', 'its back up (+y)'], ['-y', 'its front up (−y)'],
+];
+
+/** The poses as tabs, and what is asked of the one that is open. */
+export function posePanel(bench: Bench): Part {
+  const {documents, ui} = bench;
+  const tabs = h('div', {class: 'tabs', role: 'tablist', 'aria-label': 'Poses', onkeydown: (event: KeyboardEvent) => {
+    const step = event.key === 'ArrowRight' ? 1 : event.key === 'ArrowLeft' ? -1 : 0, all = posesOf(documents.doc.job).length;
+    if (!step) return;
+    ui.patch({pose: (ui.value.pose + step + all) % all});
+    tabs.querySelector<HTMLElement>('[aria-selected=true]')?.focus();
+  }});
+  const current = (): Pose => posesOf(documents.doc.job)[ui.value.pose] ?? {stand: {}};
+  const change = (pose: Pose, label: string) =>
+    documents.change(withPose({...documents.doc.job, poses: posesOf(documents.doc.job)}, ui.value.pose, pose), label);
+  const name = h('input', {class: 'pose-name', maxLength: 200, 'aria-label': 'Name of the pose', onchange: () =>
+    change(edited(current(), {name: name.value || undefined}), 'pose name')});
+  const fields = poseFields(bench, current, change);
+  const remove = h('button', {class: 'quiet', title: 'Take this pose away', onclick: () => {
+    const rest = posesOf(documents.doc.job).filter((_, at) => at !== ui.value.pose);
+    documents.change(edited(documents.doc.job, {poses: rest}), 'remove a pose');
+    ui.patch({pose: 0});
+  }}, 'Remove');
+  const body = h('div', {class: 'pose-body', role: 'tabpanel', 'aria-label': 'Pose'},
+                 h('div', {class: 'pose-head'}, name, remove), ...fields.map((field) => field.element));
+  const element = h('section', {class: 'poses'}, tabs, body);
+  const update = () => {
+    const {job} = documents.doc, poses = posesOf(job), at = Math.min(ui.value.pose, poses.length - 1);
+    if (at !== ui.value.pose) ui.patch({pose: at});
+    tabs.replaceChildren(...poses.map((pose, index) => tab(bench, pose, index, index === at)), adder(bench));
+    const pose = current();
+    if (document.activeElement !== name) name.value = poseName(pose, at);
+    remove.hidden = poses.length < 2;
+    body.querySelector('.pose-head')!.toggleAttribute('hidden', poses.length < 2);
+    fields.forEach((field) => field.update());
+  };
+  return {element, update};
+}
+
+function tab(bench: Bench, pose: Pose, index: number, selected: boolean): HTMLElement {
+  const verdict = verdictOf(bench.results.value, bench.documents.doc, index);
+  return h('button', {
+    role: 'tab', 'aria-selected': selected, tabIndex: selected ? 0 : -1, class: 'tab', 'data-tone': verdict.tone,
+    title: verdict.line, onclick: () => bench.ui.patch({pose: index}),
+  }, icon(icons[verdict.tone === 'none' ? 'wait' : verdict.tone]), h('span', {}, poseName(pose, index)));
+}
+
+function adder(bench: Bench): HTMLElement {
+  return h('button', {class: 'tab add', title: 'Add a pose that must hold, too', 'aria-label': 'Add a pose', onclick: () => {
+    const {documents, ui} = bench, poses = posesOf(documents.doc.job);
+    documents.change({...documents.doc.job, poses: [...poses, {stand: {up: '-z'}}]}, 'add a pose');
+    ui.patch({pose: poses.length});
+  }}, icon(icons.plus), (bench.documents.doc.job.poses?.length ?? 1) > 1 ? '' : 'Add a pose');
+}
+
+function poseFields(bench: Bench, current: () => Pose, change: (pose: Pose, label: string) => void): Part[] {
+  const {documents, ui} = bench;
+  const own = () => current().stand?.up ?? current().hang?.up;
+  const kind = choiceField({
+    label: 'It', options: () => [['stand', 'stands'], ['hang', 'hangs']], value: () => (current().hang ? 'hang' : 'stand'),
+    change: (value) => {
+      const {name} = current(), up = own(), box = bench.results.value.placed?.placed.box_mm;
+      const top = box ? [(box[0][0] + box[1][0]) / 2, (box[0][1] + box[1][1]) / 2, box[1][2]] as const : [0, 0, 0] as const;
+      change(edited({name, ...(value === 'hang' ? {hang: edited({from_mm: [top], up}, {})} : {stand: edited({up}, {})})} as Pose, {}), 'pose');
+    },
+  });
+  const asked = numberField({
+    label: 'Asked', unit: '°', min: 0, max: 89, step: 1, standard: () => (current().hang ? '2' : '10'),
+    hint: 'Standing: the tilt of the table that it must bear. Hanging: how level.',
+    value: () => current().stand?.tip_deg ?? current().hang?.tilt_deg,
+    change: (value) => {
+      const job = {...documents.doc.job, poses: posesOf(documents.doc.job)}, at = ui.value.pose;
+      documents.change(current().hang ? withHang(job, at, {tilt_deg: value}) : withStand(job, at, {tip_deg: value}), 'angle');
+    },
+  });
+  const up = choiceField({
+    label: 'Way up', value: () => (own() === undefined ? '' : typeof own() === 'string' ? String(own()) : 'own'),
+    options: () => (Array.isArray(own()) ? [...ways, ['own', `(${vectorOf(own()).map((v) => v.toFixed(2)).join(', ')})`]] : ways),
+    change: (value) => {
+      if (value === 'own') return;
+      const fields = {up: value === '' ? undefined : (value as '-z')}, pose = current();
+      change(edited(pose, {stand: pose.stand && edited(pose.stand, fields), hang: pose.hang && edited(pose.hang, fields)}), 'way up');
+    },
+  });
+  const text = h('span', {}), clear = h('button', {class: 'quiet', onclick: () =>
+    documents.change(withStand(documents.doc.job, ui.value.pose, {contacts: undefined}), 'touch anywhere')}, 'Anywhere');
+  const touches: Part = {
+    element: h('div', {class: 'field'}, h('span', {class: 'label'}, 'Touches'), h('span', {class: 'row'}, text, clear)),
+    update: () => {
+      const contacts = current().stand?.contacts?.length ?? 0;
+      touches.element.hidden = current().hang !== undefined;
+      text.textContent = contacts ? `${contacts} ${contacts === 1 ? 'place' : 'places'}` : 'anywhere';
+      clear.hidden = contacts === 0;
+    },
+  };
+  return [paired(kind, asked), up, touches];
+}

@@ -1,0 +1,28 @@
+/** Light or dark: as the system has it, until it is switched here. */
+export class Theme {
+  readonly #system = matchMedia('(prefers-color-scheme: dark)');
+
+  constructor(private readonly changed: () => void) {
+    this.#system.addEventListener('change', () => this.#apply(this.#chosen));
+    this.#apply(this.#chosen);
+  }
+
+  get isDark(): boolean {
+    return document.documentElement.dataset.theme === 'dark';
+  }
+
+  toggle(): void {
+    const chosen = this.isDark ? 'light' : 'dark';
+    localStorage.setItem('aplomb-theme', chosen);
+    this.#apply(chosen);
+  }
+
+  get #chosen(): string | null {
+    return localStorage.getItem('aplomb-theme');
+  }
+
+  #apply(chosen: string | null): void {
+    document.documentElement.dataset.theme = chosen ?? (this.#system.matches ? 'dark' : 'light');
+    this.changed();
+  }
+}

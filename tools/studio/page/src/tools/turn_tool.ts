@@ -1,0 +1,93 @@
+import {MathUtils, Quaternion, type Ray, Vector3} from 'three';
+
+import {posesOf, withHang, withPlace, withStand} from '../state/job';
+import {turnUpright, turnedFurther} from '../state/placement';
+import {Gizmo, type Part, angleAbout, axisOf} from './gizmo';
+import type {Bench, Tool} from './tool';
+
+const parts: readonly Part[] = ['turn-x', 'turn-y', 'turn-z'];
+
+/** Turns the model on its plate by three arcs. */
+export class TurnTool implements Tool {
+  readonly hint = 'Drag an arc to turn the model. Shift: by 15°.';
+  readonly #gizmo: Gizmo;
+  #grip: {part: Part; ray: Ray; middle: Vector3} | null = null;
+
+  constructor(private readonly bench: Bench) {
+    this.#gizmo = new Gizmo(bench.view.stage, bench.view.stage.scene, true);
+    bench.results.subscribe(() => {
+      if (bench.ui.value.tool === 'turn' && !this.#grip) this.begin();
+    });
+  }
+
+  begin(): void {
+    const box = this.bench.view.figure.box();
+    this.#gizmo.show(box.isEmpty() ? null : box.getCenter(new Vector3()), parts);
+  }
+
+  end(): void {
+    this.#gizmo.show(null, parts);
+    this.#gizmo.warm(null);
+  }
+
+  hover(x: number, y: number): void {
+    this.#gizmo.warm(this.#gizmo.under(x, y));
+  }
+
+  down(x: number, y: number): boolean {
+    const part = this.#gizmo.under(x, y);
+    if (!part) return false;
+    this.#grip = {part, ray: this.bench.view.picker.ray(x, y).ray.clone(), middle: this.#gizmo.group.position.clone()};
+    return true;
+  }
+
+  drag(x: number, y: number, event: PointerEvent): void {
+    if (this.#grip) this.#preview(this.#turn(x, y, event.shiftKey), this.#grip.middle);
+  }
+
+  up(x: number, y: number, event: PointerEvent): void {
+    const turn = this.#turn(x, y, event.shiftKey);
+    this.#rest();
+    if (Math.abs(turn.w) < 1 - 1e-9) this.#change(turn);
+  }
+
+  cancel(): boolean {
+    const held = this.#grip !== null;
+    this.#rest();
+    return held;
+  }
+
+  #rest(): void {
+    this.#grip = null;
+    this.#preview(new Quaternion(), new Vector3());
+  }
+
+  #preview(turn: Quaternion, middle: Vector3): void {
+    const {falling, stage} = this.bench.view;
+    falling.quaternion.copy(turn);
+    falling.position.copy(middle).sub(middle.clone().applyQuaternion(turn));
+    stage.invalidate();
+  }
+
+  #turn(x: number, y: number, snaps: boolean): Quaternion {
+    const axis = this.#grip && axisOf(this.#grip.part);
+    if (!this.#grip || !axis) return new Quaternion();
+    const from = angleAbout(this.#grip.ray, this.#grip.middle, axis);
+    const to = angleAbout(this.bench.view.picker.ray(x, y).ray, this.#grip.middle, axis);
+    if (from === null || to === null) return new Quaternion();
+    const degrees = MathUtils.radToDeg(to - from);
+    return new Quaternion().setFromAxisAngle(axis, MathUtils.degToRad(snaps ? 15 * Math.round(degrees / 15) : degrees));
+  }
+
+  /** A pose with a way up of its own gets another one; else the placement changes. */
+  #change(turn: Quaternion): void {
+    const {documents, ui} = this.bench, {job} = documents.doc, index = ui.value.pose, pose = posesOf(job)[index];
+    const own = pose?.stand?.up ?? pose?.hang?.up;
+    if (own === undefined)
+      return documents.change(withPlace(job, {rotate_deg: turnedFurther(job, turn)}), 'turn');
+    const upright = turnUpright(new Vector3(0, 0, 1).toArray());
+    const shown = turn.clone().multiply(this.bench.view.figure.pose.quaternion).multiply(upright);
+    const up = new Vector3(0, 0, 1).applyQuaternion(shown.invert()).toArray();
+    documents.change(pose?.stand ? withStand(job, index, {up}) : withHang(job, index, {up}), 'turn');
+  }
+}

@@ -1,0 +1,55 @@
+import {CanvasTexture, Group, Sprite, SpriteMaterial, SRGBColorSpace, type Vector3} from 'three';
+
+import type {Inks} from './inks';
+import {cleared, line} from './lines';
+
+/** A centre of mass: the quartered disc of drawings, its plumb line and where that meets the plate. */
+export class MassMark {
+  readonly group = new Group();
+  #sprite: Sprite | null = null;
+
+  /** `before`: drawn hollow and thin, as what was. Points in mm of the plate. */
+  show(at: Vector3 | null, inks: Inks, size: number, before: boolean, plumbTo = 0): void {
+    cleared(this.group);
+    this.#sprite?.material.map?.dispose();
+    this.#sprite?.material.dispose();
+    this.#sprite = null;
+    if (!at) return;
+    const color = before ? inks.mild : inks.ink, pixels = before ? 1.5 : 2.5, arm = size * (before ? 0.02 : 0.03);
+    const stroke = {color, pixels, seenThrough: true, opacity: before ? 0.9 : 1};
+    this.group.add(line([at.x, at.y, at.z, at.x, at.y, plumbTo], {...stroke, dash_mm: before ? size / 60 : 0}));
+    this.group.add(line([at.x - arm, at.y, plumbTo, at.x + arm, at.y, plumbTo], stroke),
+                   line([at.x, at.y - arm, plumbTo, at.x, at.y + arm, plumbTo], stroke));
+    this.#sprite = new Sprite(new SpriteMaterial({map: disc(inks, before), depthTest: false, sizeAttenuation: false}));
+    this.#sprite.position.copy(at);
+    this.#sprite.scale.setScalar(before ? 0.016 : 0.021);
+    this.#sprite.renderOrder = 21;
+    this.group.add(this.#sprite);
+  }
+}
+
+function disc(inks: Inks, before: boolean): CanvasTexture {
+  const canvas = document.createElement('canvas');
+  canvas.width = canvas.height = 64;
+  const pen = canvas.getContext('2d') as CanvasRenderingContext2D;
+  const ink = `#${inks.ink.getHexString()}`, paper = `#${inks.paper.getHexString()}`;
+  pen.fillStyle = paper;
+  pen.beginPath();
+  pen.arc(32, 32, 29, 0, 2 * Math.PI);
+  pen.fill();
+  pen.fillStyle = ink;
+  for (const from of before ? [] : [0, Math.PI]) {
+    pen.beginPath();
+    pen.moveTo(32, 32);
+    pen.arc(32, 32, 28, from, from + Math.PI / 2);
+    pen.fill();
+  }
+  pen.lineWidth = before ? 8 : 5;
+  pen.strokeStyle = before ? `#${inks.mild.getHexString()}` : ink;
+  pen.beginPath();
+  pen.arc(32, 32, 28, 0, 2 * Math.PI);
+  pen.stroke();
+  const texture = new CanvasTexture(canvas);
+  texture.colorSpace = SRGBColorSpace;
+  return texture;
+}

@@ -1,0 +1,67 @@
+import assert from 'node:assert/strict';
+import {test} from 'node:test';
+
+import type {PoseReport} from '../src/results/report';
+import {poseVerdict} from '../src/results/verdict';
+import {degrees, wayOf} from '../src/results/words';
+import {counterclockwise, inset, tipTowardsDeg} from '../src/view/balance';
+import {paintBall} from '../src/view/paint';
+import {Surface} from '../src/view/surface';
+
+const square = [{x: -1, y: -1}, {x: 1, y: -1}, {x: 1, y: 1}, {x: -1, y: 1}];
+
+test('towards an edge it tips at the angle of the margin over the height', () => {
+  const balance = {polygon: counterclockwise([...square].reverse()), com: [0.5, 0, 2] as const};
+  assert.ok(Math.abs(tipTowardsDeg(balance, {x: 1, y: 0}) - (Math.atan2(0.5, 2) * 180) / Math.PI) < 1e-9);
+  assert.ok(Math.abs(tipTowardsDeg(balance, {x: -1, y: 0}) - (Math.atan2(1.5, 2) * 180) / Math.PI) < 1e-9);
+  assert.ok(tipTowardsDeg({...balance, com: [1.5, 0, 2]}, {x: 1, y: 0}) < 0);
+});
+
+test('a polygon moved inward by more than it is wide is empty', () => {
+  assert.equal(inset(square, 0.5).length, 4);
+  assert.equal(inset(square, 1.5).length, 0);
+});
+
+test('directions are said as seen from the front', () => {
+  assert.equal(wayOf([1, 0, 0], [0, 0, 1]), 'to the right');
+  assert.equal(wayOf([-1, 0.1, 0], [0, 0, 1]), 'to the left');
+  assert.equal(wayOf([0, -1, 0], [0, 0, 1]), 'forwards');
+  assert.equal(wayOf([1, -1, 0], [0, 0, 1]), 'to the front right');
+  assert.equal(degrees(-7.94), '\u22127.9');
+  assert.equal(degrees(-0.04), '0.0');
+});
+
+const standing = (tip_deg: number): PoseReport => ({
+  name: 'pose 1', kind: 'standing', up: [0, 0, 1], required_tip_deg: 10, holds: tip_deg >= 10,
+  before: {mass_g: 1, volume_mm3: 1, com_mm: [0, 0, 1], tip_deg, weak_edge: {from_mm: [0, 0, 0], to_mm: [0, 1, 0], heading: [-1, 0, 0]}},
+});
+
+test('the verdict falls, stands barely or stands', () => {
+  const line = (tip: number) => poseVerdict(standing(tip), standing(tip).before).line;
+  assert.equal(line(-7.9), 'Falls to the left: \u22127.9 degrees');
+  assert.equal(line(3.2), 'Stands, but barely: 3.2 degrees');
+  assert.equal(line(10.3), 'Stands: 10.3 degrees');
+  assert.equal(line(9.999), 'Stands: 10.0 degrees');
+});
+
+const tetrahedron = () => new Surface({
+  name: 'model', positions: new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1]),
+  triangles: new Uint32Array([0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3]),
+});
+
+test('a surface knows its outside, its lowest point and how far it was moved', () => {
+  const surface = tetrahedron();
+  assert.ok(surface.facesOutward());
+  assert.equal(surface.lowest(0, 0, -1), -1);
+  const moved = Float32Array.from(surface.positions, (value, i) => (i === 11 ? value + 3 : value));
+  assert.equal(surface.move(moved), 3);
+  assert.equal(surface.positions[11], 4);
+  assert.equal(surface.move(null), 0);
+  assert.equal(surface.positions[11], 1);
+});
+
+test('paint is where the ball is', () => {
+  const surface = tetrahedron();
+  paintBall(surface, [1, 0, 0], 0.5, 2);
+  assert.deepEqual([...surface.paint], [0, 2, 0, 0]);
+});

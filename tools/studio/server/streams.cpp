@@ -1,0 +1,98 @@
+// The answers of Routes that are streams: what takes its time, and one solver.
+
+#include <fmt/format.h>
+#include <httplib.h>
+
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "aplomb/job/job_file.h"
+#include "server/replies.h"
+#include "server/routes.h"
+#include "wire/messages.h"
+
+namespace aplomb::studio {
+
+using httplib::ContentReader;
+using httplib::Request;
+using httplib::Response;
+namespace fs = std::filesystem;
+
+void Routes::add_streams(httplib::Server& server) {
+  constexpr std::array<std::pair<const char*, Errand>, 5> errands{{{"/api/place", Errand::place},
+                                                                   {"/api/check", Errand::check},
+                                                                   {"/api/preview", Errand::preview},
+                                                                   {"/api/validate", Errand::validate},
+                                                                   {"/api/stand", Errand::stand}}};
+  for (const auto& [path, errand] : errands)
+    server.Post(path, [this, errand = errand](const Request&, Response& response, const ContentReader& reader) {
+      if (const auto ask = read_ask(response, reader)) stream(response, *ask, errand);
+    });
+}
+
+void Routes::stream(Response& response, const Ask& ask, Errand errand) {
+  const auto model = models_.find(ask.model);
+  if (!model) return refuse(response, conflict, Ending::usage, "that model is no longer here");
+  const auto turn = turns_.ask(errand);
+  response.set_chunked_content_provider(
+      "application/octet-stream",
+      [this, ask, model = *model, errand, turn](std::size_t, httplib::DataSink& sink) {
+        Stream stream(sink, *turn);
+        while (!stream.is_over() && !turns_.is_up(*turn, 50)) stream.stay_alive();
+        if (stream.is_over()) stream.json(cancelled_message());
+        else answer(ask, model, errand, stream);
+        stream.end();
+        sink.done();
+        return true;
+      },
+      [this, turn](bool) { turns_.leave(*turn); });
+}
+
+void Routes::answer(const Ask& ask, const Model& model, Errand errand, Stream& stream) {
+  const std::string job = job_file_text(ask.job, model, false, false);
+  if (errand == Errand::stand)  // the others are told by the solver
+    if (const auto parsed = parse_job(job, ""); !parsed) return stream.json(error_message(parsed.error()));
+  SolverRequest request{.what = "place", .folder = model.folder.string(), .job = job, .wish = ask.wish};
+  switch (errand) {
+    case Errand::stand:
+      return stand(ask, model, stream);
+    case Errand::validate:
+      if (ask.of == "result") return validate_result(ask, model, stream);
+      request.what = "validate";
+      break;
+    case Errand::check:
+      request.what = "check";
+      break;
+    case Errand::preview:
+      request.what = "preview";
+      break;
+    case Errand::place:
+      break;
+  }
+  resident_.answer(request, stream);
+}
+
+void Routes::stand(const Ask& ask, const Model& model, Stream& stream) {
+  const fs::path folder = places_.models / fmt::format("run-{}", ++runs_);  // one at a time: see Turns
+  auto made = run_whole(places_.aplomb, folder, model, ask.job, stream, resident_);
+  std::error_code ignored;
+  const std::lock_guard lock(made_mutex_);
+  if (made) std::swap(made, made_), made_of_ = ask;
+  else made = Made{folder, model.stem()};
+  if (made) fs::remove_all(made->folder, ignored);
+}
+
+/// The file that was written, as it is: it was placed when it was made.
+void Routes::validate_result(const Ask& ask, const Model& model, Stream& stream) {
+  const auto made = made_of(ask);
+  if (!made || !fs::exists(made->mesh()))
+    return stream.json(
+        error_message(static_cast<int>(Ending::usage), "make it stand first: there is no result of this job"));
+  auto job = nlohmann::ordered_json::parse(job_file_text(ask.job, model, false, false));
+  job["model"] = made->mesh().filename().string();
+  job.erase("place");
+  job.erase("profile");
+  resident_.answer({.what = "validate", .folder = made->folder.string(), .job = job.dump()}, stream);
+}
+
+}  // namespace aplomb::studio
