@@ -53,26 +53,39 @@ function build(client: Client, start: Start): void {
   };
   const welcome = h('section', {class: 'welcome', 'aria-label': 'Open a model'}, invitation(start, conductor, () => undefined));
   const rail = toolRail(bench, toolbox), bar = viewBar(bench), notice = noticeBar(bench);
-  const top = topBar(bench, verdictLine(documents, results, ui), theme, actions);
+  const verdict = verdictLine(documents, results, ui), top = topBar(bench, verdict.element, theme, actions);
   const scrolled = [posePanel(bench), makingPanel(bench, start), placePanel(bench), shapePanel(bench), findingsPanel(bench), numbersPanel(bench)];
   const last = foot(bench, client);
   room.append(welcome, notice.element, rail.element, rail.hint, bar.element);
   const panel = h('aside', {class: 'panel', 'aria-label': 'The job'}, h('div', {class: 'scrolled'}, ...scrolled.map((part) => part.element)), last.element);
   root.replaceChildren(top.element, room, panel, opening, keys);
 
-  const parts: Part[] = [top, rail, bar, notice, ...scrolled, last];
-  const update = () => {
+  const parts: Part[] = [verdict, top, rail, bar, notice, ...scrolled, last];
+  const update = oncePerPicture(() => {
     const isEmpty = documents.doc.model === null;
     welcome.hidden = !isEmpty;
     root.classList.toggle('empty', isEmpty);
     for (const part of parts) part.update();
-  };
-  for (const store of [documents.state, results, ui]) (store as Signal<unknown>).subscribe(update);
+  });
+  for (const store of [documents.state, results, ui, view.moved_mm]) (store as Signal<unknown>).subscribe(update);
   update();
   takeDrops(room, conductor);
   standAtOnce(bench);
   listenToKeys(bench, toolbox, actions);
   if (start.model) documents.open(start.model, withoutVersion(start.job));
+}
+
+/** Does something with the next picture, however often it is asked for until then. */
+function oncePerPicture(work: () => void): () => void {
+  let isAsked = false;
+  return () => {
+    if (isAsked) return;
+    isAsked = true;
+    requestAnimationFrame(() => {
+      isAsked = false;
+      work();
+    });
+  };
 }
 
 /** The page of who has no right to be here, or finds nobody here. */

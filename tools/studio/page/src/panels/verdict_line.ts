@@ -3,12 +3,13 @@ import type {UiStore} from '../state/ui';
 import type {ResultsStore} from '../results/results';
 import {type Tone, heldPoses, verdictOf} from '../results/verdict';
 import {h, icon, say} from './dom';
+import type {Part} from './fields';
 import {icons} from './icons';
 
 const pictures: Record<Tone, keyof typeof icons> = {falls: 'falls', short: 'short', stands: 'stands', none: 'wait'};
 
 /** The verdict: one line, always of what is shown now, read out when it changes. */
-export function verdictLine(documents: DocumentStore, results: ResultsStore, ui: UiStore): HTMLElement {
+export function verdictLine(documents: DocumentStore, results: ResultsStore, ui: UiStore): Part {
   const line = h('h1', {class: 'verdict-line', id: 'verdict', role: 'status', 'aria-live': 'polite'});
   const detail = h('p', {class: 'verdict-detail', id: 'verdict-detail'});
   const picture = h('span', {class: 'verdict-picture'});
@@ -28,11 +29,7 @@ export function verdictLine(documents: DocumentStore, results: ResultsStore, ui:
     if (shown !== verdict.tone) picture.replaceChildren(icon(icons[pictures[verdict.tone]]));
     shown = verdict.tone;
   };
-  documents.state.subscribe(update);
-  results.subscribe(update);
-  ui.subscribe(update);
-  update();
-  return element;
+  return {element, update};
 }
 
 function waiting(failed: boolean, stage: string | undefined): string {

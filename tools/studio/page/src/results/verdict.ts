@@ -56,6 +56,7 @@ export function figuresOf(results: Results, doc: Doc, index: number): {pose: Pos
 export function verdictOf(results: Results, doc: Doc, index: number, isHeld = false): Verdict {
   const stand = freshStand(results, doc);
   const pose = stand?.report.poses[index];
+  if (stand && pose && stand.code && !stand.outside) return inVain(poseVerdict(pose, pose.after ?? pose.before), pose);
   if (stand && pose) return ofRun(poseVerdict(pose, pose.after ?? pose.before), pose);
   const preview = !bends(doc.job) ? null : isHeld ? results.preview : freshPreview(results, doc);
   const bent = preview?.preview.poses[index];
@@ -64,6 +65,13 @@ export function verdictOf(results: Results, doc: Doc, index: number, isHeld = fa
   if (!check || bends(doc.job)) return unknown;
   const verdict = poseVerdict(check, check.before);
   return {...verdict, detail: `${verdict.detail}; as a solid`};
+}
+
+/** Nothing was written: the figures are of the best that there would be. */
+function inVain(best: Verdict, pose: PoseReport): Verdict {
+  const figures = pose.after ?? pose.before, angle = pose.kind === 'hanging' ? figures.tilt_deg : figures.tip_deg;
+  const reach = typeof angle === 'number' ? `: ${degrees(angle)} degrees at best` : '';
+  return {...ofRun(best, pose), tone: best.tone === 'falls' ? 'falls' : 'short', line: `Nothing made${reach}`};
 }
 
 function ofRun(verdict: Verdict, pose: PoseReport): Verdict {
