@@ -41,22 +41,33 @@ function latencies(marks) {
   });
 }
 
+/** Of the browser's processes. CPU time says what the page costs on a machine that others use, too. */
+async function processes(browser) {
+  const session = await browser.newBrowserCDPSession(), {processInfo} = await session.send('SystemInfo.getProcessInfo');
+  await session.detach();
+  return {
+    cpu_s: processInfo.filter((one) => one.type !== 'browser').reduce((sum, one) => sum + one.cpuTime, 0),
+    mb: (type) => processInfo.filter((one) => one.type === type).reduce((most, one) => Math.max(most, megabytes(one.id)), 0),
+  };
+}
+
 const marksOf = (page) => page.evaluate(() => performance.getEntriesByType('mark').map(({name, startTime, detail}) => ({name, at: startTime, wish: detail})));
 
 async function measure(browser, folder, wanted) {
   const {bytes, triangles} = leaningVase(wanted), file = join(folder, `vase-${wanted}.stl`);
   writeFileSync(file, bytes);
   const began = Date.now(), studio = await startStudio(file), ready = Date.now() - began;
-  const page = await openPage(browser, studio.address);
+  const idle = await processes(browser), page = await openPage(browser, studio.address);
   page.setDefaultTimeout(120_000);
   await verdict(page);
   await drawn(page);
-  const first = (await marksOf(page)).find((mark) => mark.name === 'aplomb-model-drawn').at;
+  const shown = await processes(browser), first = (await marksOf(page)).find((mark) => mark.name === 'aplomb-model-drawn').at;
   await page.keyboard.press('h');
   const middle = [480, 330];
   await page.mouse.click(...middle);
   await page.getByRole('button', {name: 'handle 1', exact: true}).waitFor();
   await drawn(page);
+  const still = await processes(browser);
   await page.mouse.move(...middle);
   await page.mouse.down();
   for (const end = Date.now() + drag_ms; Date.now() < end; ) {
@@ -67,11 +78,11 @@ async function measure(browser, folder, wanted) {
   const marks = await marksOf(page), waits = latencies(marks);
   const pictures = marks.filter((mark) => mark.name === 'aplomb-preview-drawn').length;
   await page.mouse.up();
-  const session = await browser.newBrowserCDPSession(), {processInfo} = await session.send('SystemInfo.getProcessInfo');
-  const memory = (type) => processInfo.filter((one) => one.type === type).reduce((most, one) => Math.max(most, megabytes(one.id)), 0);
+  const dragged = await processes(browser);
   const row = {
     triangles, moves: waits.length, 'pictures/s': (pictures / drag_ms) * 1000, 'median ms': quantile(waits, 0.5), '95 % ms': quantile(waits, 0.95),
-    'page to picture s': first / 1000, 'program to picture s': (ready + first) / 1000, 'page MB': memory('renderer'), 'WebGL MB': memory('GPU'),
+    'page CPU ms a picture': (1000 * (dragged.cpu_s - still.cpu_s)) / pictures, 'start to picture s': (ready + first) / 1000,
+    'of it page CPU s': shown.cpu_s - idle.cpu_s, 'page MB': dragged.mb('renderer'), 'WebGL MB': dragged.mb('GPU'),
     'server MB': megabytes(studio.pid), 'solver MB': Math.max(0, ...childrenOf(studio.pid).map(megabytes)),
   };
   await page.context().close();

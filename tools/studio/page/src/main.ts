@@ -53,7 +53,7 @@ function build(client: Client, start: Start): void {
   };
   const welcome = h('section', {class: 'welcome', 'aria-label': 'Open a model'}, invitation(start, conductor, () => undefined));
   const rail = toolRail(bench, toolbox), bar = viewBar(bench), notice = noticeBar(bench);
-  const verdict = verdictLine(documents, results, ui), top = topBar(bench, verdict.element, theme, actions);
+  const verdict = verdictLine(bench), top = topBar(bench, verdict.element, theme, actions);
   const scrolled = [posePanel(bench), makingPanel(bench, start), placePanel(bench), shapePanel(bench), findingsPanel(bench), numbersPanel(bench)];
   const last = foot(bench, client);
   room.append(welcome, notice.element, rail.element, rail.hint, bar.element);

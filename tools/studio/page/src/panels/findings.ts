@@ -32,8 +32,9 @@ export function findingsPanel({documents, results, ui, conductor}: Bench): Part 
     }
     for (const item of list.children as HTMLCollectionOf<HTMLElement>) {
       const isIt = Number(item.dataset.number) === ui.value.finding;
-      if (isIt && !item.classList.contains('open')) item.scrollIntoView({block: 'nearest'});
+      const isNew = isIt && !item.classList.contains('open');
       item.classList.toggle('open', isIt);
+      if (isNew) item.scrollIntoView({block: 'nearest'});
       item.querySelector('button')!.setAttribute('aria-pressed', String(isIt));
     }
   };
