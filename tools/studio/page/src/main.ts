@@ -37,7 +37,7 @@ const root = document.getElementById('studio') as HTMLElement;
 /** The whole page over a server that has let it in. */
 function build(client: Client, start: Start): void {
   const documents = new DocumentStore(), results = new Signal<Results>(nothing), ui = newUi();
-  const conductor = new Conductor(client, documents, results);
+  const conductor = new Conductor(client, documents, results, start.limits.upload_bytes);
   const canvas = h('canvas', {'aria-label': 'The model on its plate', role: 'img'});
   const marks = h('div', {class: 'marks'}), room = h('main', {class: 'room'}, canvas, marks);
   root.replaceChildren(room);
@@ -47,7 +47,7 @@ function build(client: Client, start: Start): void {
   const toolbox = new Toolbox(bench);
 
   const opening = dialog('Open', invitation(start, conductor, () => opening.close()));
-  const keys = dialog('Keys', keysTable());
+  const keys = dialog('Keys', h('div', {}, keysTable(), h('button', {class: 'plain', id: 'quit', onclick: () => void quit(client)}, 'End Aplomb Studio')));
   const actions = {
     open: () => opening.showModal(), help: () => keys.showModal(), save: () => void save(bench, client, '3mf'),
   };
@@ -86,6 +86,12 @@ function oncePerPicture(work: () => void): () => void {
       work();
     });
   };
+}
+
+/** Ends the server; the page has nobody to talk to then. */
+async function quit(client: Client): Promise<void> {
+  await client.json('/api/quit', {}).catch(() => undefined);
+  turnAway('Aplomb Studio has ended. This page can be closed.');
 }
 
 /** The page of who has no right to be here, or finds nobody here. */

@@ -20,6 +20,8 @@ export class Stage {
   readonly beforeDraw = new Set<() => void>();
   readonly afterDraw = new Set<() => void>();
   readonly #sun = new DirectionalLight(0xffffff, 1.9);
+  /** Without a model nothing is drawn: the page invites to open one. */
+  hasModel = false;
   #asked = false;
 
   constructor(readonly canvas: HTMLCanvasElement) {
@@ -39,7 +41,7 @@ export class Stage {
   }
 
   invalidate(): void {
-    if (this.#asked) return;
+    if (this.#asked || !this.hasModel) return;
     this.#asked = true;
     requestAnimationFrame(() => {
       this.#asked = false;

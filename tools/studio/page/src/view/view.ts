@@ -88,6 +88,7 @@ export class View {
   /** Asks for all to be brought up to date, with the next picture. */
   update(): void {
     this.#isOld = true;
+    this.stage.hasModel = this.documents.doc.model !== null;
     this.stage.invalidate();
   }
 
