@@ -74,6 +74,7 @@ test('a surface knows its outside, its lowest point and how far it was moved', (
   const surface = tetrahedron();
   assert.ok(surface.facesOutward());
   assert.equal(surface.lowest(0, 0, -1), -1);
+  assert.deepEqual(surface.farthest([0, 1, 0]), [0, 1, 0]);
   const moved = Float32Array.from(surface.positions, (value, i) => (i === 11 ? value + 3 : value));
   assert.equal(surface.move(moved), 3);
   assert.equal(surface.positions[11], 4);

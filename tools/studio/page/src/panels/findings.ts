@@ -21,7 +21,7 @@ export function findingsPanel({documents, results, ui, conductor}: Bench): Part 
     said.hidden = judgement === null;
     if (judgement !== shown) {
       said.textContent = judgement ? summary(judgement, found!.of) : '';
-      said.dataset.tone = judgement?.passes ? 'stands' : 'falls';
+      said.dataset.tone = judgement?.passes ? 'stands' : judgement && found && isInherited(judgement, found.of) ? 'short' : 'falls';
       list.replaceChildren(...(judgement ? numbered(judgement) : []).map(({finding, number}) =>
         h('li', {class: finding.severity, 'data-number': number}, h('button', {
           'aria-pressed': false, onclick: () => ui.patch({finding: ui.value.finding === number ? null : number}),
@@ -41,9 +41,16 @@ export function findingsPanel({documents, results, ui, conductor}: Bench): Part 
   return {element, update};
 }
 
+/** Whether a result fails nothing that the model as it came does not fail, too: with ballast the mesh is the same. */
+function isInherited(judgement: Judgement, of: 'model' | 'result'): boolean {
+  return of === 'result' && judgement.new_failures?.length === 0;
+}
+
 function summary(judgement: Judgement, of: 'model' | 'result'): string {
   const fails = judgement.checks.filter((check) => check.verdict.startsWith('fail')).length;
+  const checks = `${fails} ${fails === 1 ? 'check fails' : 'checks fail'}`;
+  if (!judgement.passes && isInherited(judgement, of)) return `By itself (${judgement.process}) ${checks}, as for the model as it came.`;
   const what = of === 'model' ? 'The model as it came' : 'What was made';
   return judgement.passes ? `${what} prints (${judgement.process}).`
-    : `${what} will not print as it is (${judgement.process}): ${fails} ${fails === 1 ? 'check fails' : 'checks fail'}.`;
+    : `${what} will not print as it is (${judgement.process}): ${checks}.`;
 }

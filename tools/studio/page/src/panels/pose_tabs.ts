@@ -1,5 +1,5 @@
-import type {Bench} from '../tools/tool';
-import {type Pose, edited, poseName, posesOf, vectorOf, withHang, withPose, withStand} from '../state/job';
+import {type Bench, tenth} from '../tools/tool';
+import {type Pose, type Vec3, edited, poseName, posesOf, vectorOf, withHang, withPose, withStand} from '../state/job';
 import {verdictOf} from '../results/verdict';
 import {h, icon, say} from './dom';
 import {type Part, choiceField, numberField, paired} from './fields';
@@ -69,9 +69,8 @@ function poseFields(bench: Bench, current: () => Pose, change: (pose: Pose, labe
   const kind = choiceField({
     label: 'It', options: () => [['stand', 'stands'], ['hang', 'hangs']], value: () => (current().hang ? 'hang' : 'stand'),
     change: (value) => {
-      const {name} = current(), up = own(), box = bench.results.value.placed?.placed.box_mm;
-      const top = box ? [(box[0][0] + box[1][0]) / 2, (box[0][1] + box[1][1]) / 2, box[1][2]] as const : [0, 0, 0] as const;
-      change(edited({name, ...(value === 'hang' ? {hang: edited({from_mm: [top], up}, {})} : {stand: edited({up}, {})})} as Pose, {}), 'pose');
+      const {name} = current(), up = own(), top = bench.view.figure.outside?.farthest(vectorOf(up)) ?? [0, 0, 0];
+      change(edited({name, ...(value === 'hang' ? {hang: edited({from_mm: [top.map(tenth) as unknown as Vec3], up}, {})} : {stand: edited({up}, {})})} as Pose, {}), 'pose');
     },
   });
   const asked = numberField({

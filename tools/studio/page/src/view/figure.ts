@@ -112,7 +112,7 @@ export class Figure {
     if (xray) this.#add(outside, inks.model, {opacity: 0.12, side: BackSide}, 7);
     if (this.#look === 'solid') return;
     for (const one of this.#voids) this.#add(one, inks.void, {side: DoubleSide, clip}, 0);
-    if (this.#dense && xray) this.#add(this.#dense, inks.dense, {side: DoubleSide}, 0);
+    if (this.#dense && xray) this.#add(this.#dense, inks.dense, {opacity: 0.3}, 9); // it may reach beyond the model
   }
 
   #add(surface: Surface, color: Color, options: Parameters<typeof clay>[1], order: number): void {
