@@ -35,7 +35,7 @@ class BendPreview {
   struct Options {
     ReshapeOptions reshape{};  ///< its regions do not count
     RowKind kind = RowKind::nominal;
-    std::size_t samples = 10000;  ///< of the cage, >= 1000: fewer are faster
+    std::size_t samples = 7000;  ///< of the cage, >= 1000: fewer are faster
   };
 
   /// \pre  find_problem(options.reshape) and find_problem(poses) are empty.

@@ -32,30 +32,41 @@ export function countPixels(image, test, {left = 0, top = 0, right = image.width
   return count;
 }
 
-/** A PNG of at most 256 colours, the most frequent ones: screenshots have few. */
+/** Half as wide and high: each pixel the mean of four. */
+export function halved({width, height, at}) {
+  const mean = (x, y) => [0, 1, 2].map((channel) =>
+    (at(x, y)[channel] + at(x + 1, y)[channel] + at(x, y + 1)[channel] + at(x + 1, y + 1)[channel] + 2) >> 2);
+  return {width: width >> 1, height: height >> 1, at: (x, y) => mean(2 * x, 2 * y)};
+}
+
+/** A PNG of at most 256 colours: the most frequent, alike ones taken together. */
 export function encodePalettePng({width, height, at}) {
-  const counts = new Map(), keyAt = (x, y) => at(x, y).reduce((key, value) => (key << 8) | (value & 0xfc), 0);
-  for (let y = 0; y < height; ++y) for (let x = 0; x < width; ++x) counts.set(keyAt(x, y), (counts.get(keyAt(x, y)) ?? 0) + 1);
-  const palette = [...counts].sort((a, b) => b[1] - a[1]).slice(0, 256).map(([key]) => key), nearest = new Map();
-  const indexOf = (key) => {
-    if (!nearest.has(key)) nearest.set(key, nearestIndex(palette, key));
-    return nearest.get(key);
-  };
+  const alike = new Map(), keys = new Uint32Array(width * height);
+  for (let y = 0; y < height; ++y)
+    for (let x = 0; x < width; ++x) {
+      const color = at(x, y), key = ((color[0] & 0xf8) << 16) | ((color[1] & 0xf8) << 8) | (color[2] & 0xf8);
+      const sum = alike.get(key) ?? [0, 0, 0, 0];
+      [color[0], color[1], color[2], 1].forEach((value, i) => (sum[i] += value));
+      alike.set(key, sum);
+      keys[y * width + x] = key;
+    }
+  const kept = [...alike].sort((a, b) => b[1][3] - a[1][3]).slice(0, 256);
+  const palette = kept.map(([, sum]) => sum.slice(0, 3).map((value) => Math.round(value / sum[3]))), indices = new Map();
+  for (const [key, sum] of alike) indices.set(key, nearestIndex(palette, sum.slice(0, 3).map((value) => value / sum[3])));
   const rows = Buffer.alloc(height * (width + 1));
-  for (let y = 0; y < height; ++y) for (let x = 0; x < width; ++x) rows[y * (width + 1) + 1 + x] = indexOf(keyAt(x, y));
+  keys.forEach((key, i) => (rows[i + Math.floor(i / width) + 1] = indices.get(key)));
   const head = Buffer.alloc(13);
   head.writeUInt32BE(width, 0);
   head.writeUInt32BE(height, 4);
   head.set([8, 3, 0, 0, 0], 8);
-  const colors = Buffer.from(palette.flatMap((key) => [key >> 16, (key >> 8) & 255, key & 255].map((value) => value | (value >> 6))));
-  return Buffer.concat([Buffer.from([137, 80, 78, 71, 13, 10, 26, 10]), part('IHDR', head), part('PLTE', colors),
+  return Buffer.concat([Buffer.from([137, 80, 78, 71, 13, 10, 26, 10]), part('IHDR', head), part('PLTE', Buffer.from(palette.flat())),
                         part('IDAT', deflateSync(rows, {level: 9})), part('IEND', Buffer.alloc(0))]);
 }
 
-function nearestIndex(palette, key) {
+function nearestIndex(palette, color) {
   let best = 0, least = Infinity;
-  palette.forEach((color, index) => {
-    const away = [16, 8, 0].reduce((sum, shift) => sum + (((color >> shift) & 255) - ((key >> shift) & 255)) ** 2, 0);
+  palette.forEach((one, index) => {
+    const away = one.reduce((sum, value, i) => sum + (value - color[i]) ** 2, 0);
     if (away < least) [best, least] = [index, away];
   });
   return best;

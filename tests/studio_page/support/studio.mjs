@@ -2,14 +2,19 @@
 import {spawn} from 'node:child_process';
 import {mkdtempSync, readFileSync, readdirSync, rmSync} from 'node:fs';
 import {tmpdir} from 'node:os';
-import {join} from 'node:path';
+import {dirname, join} from 'node:path';
 import {createInterface} from 'node:readline';
+import {fileURLToPath} from 'node:url';
 
 import {chromium} from 'playwright-core';
 
-/** The program to test. */
+const root = join(dirname(fileURLToPath(import.meta.url)), '..', '..', '..'), tools = join(root, 'build', 'release', 'tools');
+
+/** What is tested: as ctest names it, else what lies in build/release. */
 export const programs = {
-  studio: process.env.APLOMB_STUDIO, cli: process.env.APLOMB_CLI, fixtures: process.env.APLOMB_FIXTURES,
+  studio: process.env.APLOMB_STUDIO ?? join(tools, 'studio', 'aplomb-studio'),
+  cli: process.env.APLOMB_CLI ?? join(tools, 'cli', 'aplomb'),
+  fixtures: process.env.APLOMB_FIXTURES ?? join(root, 'fixtures'),
 };
 
 /** Starts a server of its own; `file` is what it begins with. */

@@ -147,7 +147,8 @@ Result<void> Routes::begin_with(const fs::path& file) {
   auto model = copy_of(model_file);
   if (!model) return tl::unexpected(model.error());
   if (!profile.empty()) {
-    model->profile = "profile-" + safe_name(profile.filename().string());
+    model->profile = safe_name(profile.filename().string());
+    if (model->profile == model->name) model->profile += ".profile";
     std::error_code failed;
     fs::copy_file(profile, model->folder / model->profile, failed);
     if (failed) return fail(ErrorCode::file_system, fmt::format("{} cannot be read", profile.string()));
@@ -203,7 +204,6 @@ void Routes::take_fixture(Response& response, const Ask& ask) {
 }
 
 std::optional<Made> Routes::made_of(const Ask& ask) {
-  const std::lock_guard lock(made_mutex_);
   if (!made_ || made_of_.model != ask.model || !same_json(made_of_.job, ask.job)) return std::nullopt;
   return made_;
 }
@@ -214,6 +214,7 @@ void Routes::take_away(Response& response, const Ask& ask) {
   if (ask.what == "job")
     return answer_file(response, job_file_text(ask.job, *model, true, false), model->stem() + "-job.json",
                        "application/json");
+  const std::lock_guard lock(made_mutex_);  // a newer run removes the files of this one
   const auto made = made_of(ask);
   if (!made) return refuse(response, conflict, Ending::usage, "make it stand first: there is no result of this job");
   if (ask.what == "stl" && fs::exists(made->dense()))

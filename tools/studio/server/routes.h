@@ -56,7 +56,7 @@ class Routes {
 
   /// The body where it is short enough; else the response says so.
   std::optional<Ask> read_ask(httplib::Response& response, const httplib::ContentReader& reader);
-  /// The last run, where it was of this job.
+  /// The last run, where it was of this job. \pre made_mutex_ is held.
   std::optional<Made> made_of(const Ask& ask);
   Result<Model> copy_of(const std::filesystem::path& file);
 

@@ -39,8 +39,12 @@ void Routes::stream(Response& response, const Ask& ask, Errand errand) {
       [this, ask, model = *model, errand, turn](std::size_t, httplib::DataSink& sink) {
         Stream stream(sink, *turn);
         while (!stream.is_over() && !turns_.is_up(*turn, 50)) stream.stay_alive();
-        if (stream.is_over()) stream.json(cancelled_message());
-        else answer(ask, model, errand, stream);
+        try {
+          if (stream.is_over()) stream.json(cancelled_message());
+          else answer(ask, model, errand, stream);
+        } catch (const std::exception& error) {  // a bug, or no memory; the library would let it end the server
+          stream.json(error_message(static_cast<int>(Ending::internal), error.what()));
+        }
         stream.end();
         sink.done();
         return true;
@@ -84,14 +88,16 @@ void Routes::stand(const Ask& ask, const Model& model, Stream& stream) {
 
 /// The file that was written, as it is: it was placed when it was made.
 void Routes::validate_result(const Ask& ask, const Model& model, Stream& stream) {
-  const auto made = made_of(ask);
+  const auto made = [&] {
+    const std::lock_guard lock(made_mutex_);
+    return made_of(ask);
+  }();
   if (!made || !fs::exists(made->mesh()))
     return stream.json(
         error_message(static_cast<int>(Ending::usage), "make it stand first: there is no result of this job"));
   auto job = nlohmann::ordered_json::parse(job_file_text(ask.job, model, false, false));
   job["model"] = made->mesh().filename().string();
-  job.erase("place");
-  job.erase("profile");
+  for (const char* key : {"place", "profile", "ballast"}) job.erase(key);
   resident_.answer({.what = "validate", .folder = made->folder.string(), .job = job.dump()}, stream);
 }
 

@@ -5,6 +5,9 @@
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#ifdef __linux__
+#include <linux/close_range.h>
+#endif
 
 #include <array>
 #include <iostream>
@@ -46,6 +49,10 @@ void open_browser(const std::string& address) {
     sigemptyset(&none);
     sigprocmask(SIG_SETMASK, &none, nullptr);
     signal(SIGPIPE, SIG_DFL);
+    setsid();  // Ctrl-C is for the server
+#ifdef __linux__
+    close_range(3, ~0U, 0);  // a browser that goes on running must not hold the port
+#endif
 #ifdef __APPLE__
     constexpr const char* opener = "open";
 #else

@@ -22,10 +22,11 @@ std::vector<std::uint32_t> connected(const TriangleMesh& mesh) {
   return parent;
 }
 
-/// Those triangles with the vertices that they need.
-TriangleMesh part_of(const TriangleMesh& mesh, const std::vector<std::size_t>& triangles) {
-  constexpr std::uint32_t none = 0xFFFFFFFF;
-  std::vector<std::uint32_t> number(mesh.vertices.size(), none);
+constexpr std::uint32_t none = 0xFFFFFFFF;
+
+/// Those triangles with the vertices that they need, which are numbered anew. No other part has any of them.
+TriangleMesh part_of(const TriangleMesh& mesh, const std::vector<std::size_t>& triangles,
+                     std::vector<std::uint32_t>& number) {
   TriangleMesh part;
   for (const std::size_t t : triangles) {
     Triangle& added = part.triangles.emplace_back();
@@ -52,9 +53,10 @@ std::vector<Surface> surfaces_of(const TriangleMesh& mesh) {
     if (is_new) parts.emplace_back();
     parts[at->second].push_back(t);
   }
+  std::vector<std::uint32_t> number(mesh.vertices.size(), none);
   std::vector<Surface> surfaces(1);
   for (const auto& triangles : parts) {
-    TriangleMesh part = part_of(mesh, triangles);
+    TriangleMesh part = part_of(mesh, triangles, number);
     if (moments(part).volume_mm3 < 0) surfaces.push_back({std::move(part), true});
     else surfaces.front().mesh = joined(std::move(surfaces.front().mesh), part);
   }

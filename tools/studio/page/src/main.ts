@@ -37,7 +37,7 @@ const root = document.getElementById('studio') as HTMLElement;
 /** The whole page over a server that has let it in. */
 function build(client: Client, start: Start): void {
   const documents = new DocumentStore(), results = new Signal<Results>(nothing), ui = newUi();
-  const conductor = new Conductor(client, documents, results);
+  const conductor = new Conductor(client, documents, results, start.limits.upload_bytes);
   const canvas = h('canvas', {'aria-label': 'The model on its plate', role: 'img'});
   const marks = h('div', {class: 'marks'}), room = h('main', {class: 'room'}, canvas, marks);
   root.replaceChildren(room);
@@ -47,32 +47,51 @@ function build(client: Client, start: Start): void {
   const toolbox = new Toolbox(bench);
 
   const opening = dialog('Open', invitation(start, conductor, () => opening.close()));
-  const keys = dialog('Keys', keysTable());
+  const keys = dialog('Keys', h('div', {}, keysTable(), h('button', {class: 'plain', id: 'quit', onclick: () => void quit(client)}, 'End Aplomb Studio')));
   const actions = {
     open: () => opening.showModal(), help: () => keys.showModal(), save: () => void save(bench, client, '3mf'),
   };
   const welcome = h('section', {class: 'welcome', 'aria-label': 'Open a model'}, invitation(start, conductor, () => undefined));
   const rail = toolRail(bench, toolbox), bar = viewBar(bench), notice = noticeBar(bench);
-  const top = topBar(bench, verdictLine(documents, results, ui), theme, actions);
+  const verdict = verdictLine(bench), top = topBar(bench, verdict.element, theme, actions);
   const scrolled = [posePanel(bench), makingPanel(bench, start), placePanel(bench), shapePanel(bench), findingsPanel(bench), numbersPanel(bench)];
   const last = foot(bench, client);
   room.append(welcome, notice.element, rail.element, rail.hint, bar.element);
   const panel = h('aside', {class: 'panel', 'aria-label': 'The job'}, h('div', {class: 'scrolled'}, ...scrolled.map((part) => part.element)), last.element);
   root.replaceChildren(top.element, room, panel, opening, keys);
 
-  const parts: Part[] = [top, rail, bar, notice, ...scrolled, last];
-  const update = () => {
+  const parts: Part[] = [verdict, top, rail, bar, notice, ...scrolled, last];
+  const update = oncePerPicture(() => {
     const isEmpty = documents.doc.model === null;
     welcome.hidden = !isEmpty;
     root.classList.toggle('empty', isEmpty);
     for (const part of parts) part.update();
-  };
-  for (const store of [documents.state, results, ui]) (store as Signal<unknown>).subscribe(update);
+  });
+  for (const store of [documents.state, results, ui, view.moved_mm]) (store as Signal<unknown>).subscribe(update);
   update();
   takeDrops(room, conductor);
   standAtOnce(bench);
   listenToKeys(bench, toolbox, actions);
   if (start.model) documents.open(start.model, withoutVersion(start.job));
+}
+
+/** Does something with the next picture, however often it is asked for until then. */
+function oncePerPicture(work: () => void): () => void {
+  let isAsked = false;
+  return () => {
+    if (isAsked) return;
+    isAsked = true;
+    requestAnimationFrame(() => {
+      isAsked = false;
+      work();
+    });
+  };
+}
+
+/** Ends the server; the page has nobody to talk to then. */
+async function quit(client: Client): Promise<void> {
+  await client.json('/api/quit', {}).catch(() => undefined);
+  turnAway('Aplomb Studio has ended. This page can be closed.');
 }
 
 /** The page of who has no right to be here, or finds nobody here. */

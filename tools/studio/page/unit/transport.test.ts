@@ -93,25 +93,38 @@ test('file names come out of Content-Disposition', () => {
   assert.equal(nameIn('attachment; filename="trex.3mf"'), 'trex.3mf');
 });
 
-const moment = (ms: number) => new Promise((resolve) => setTimeout(resolve, ms));
+async function idle(newest: Newest<number>): Promise<void> {
+  while (newest.busy) await new Promise((resolve) => setTimeout(resolve, 1));
+}
 
-test('of many wishes the first and the newest are done, and none that is served is waited for', async () => {
-  const begun: number[] = [], ended: number[] = [];
+test('of many wishes the first and the newest are done, and what is served is ended by a newer one', async () => {
+  const begun: number[] = [], ended: [number, boolean][] = [];
+  let open = () => {};
+  const gate = new Promise<void>((resolve) => (open = resolve));
   const newest = new Newest<number>(async (wish, turn) => {
     begun.push(wish);
-    await moment(5);
+    await gate;
     turn.served();
-    await new Promise<void>((resolve) => {
-      turn.signal.addEventListener('abort', () => resolve());
-      if (turn.signal.aborted || wish === 9) resolve();
-    });
-    ended.push(wish);
+    ended.push([wish, turn.signal.aborted]);
   }, (error) => assert.fail(String(error)));
   for (let wish = 0; wish < 10; ++wish) newest.ask(wish);
-  await moment(40);
-  assert.deepEqual(begun, [0, 9]);
-  assert.deepEqual(ended, [0, 9]);
-  assert.ok(!newest.busy);
+  assert.deepEqual(begun, [0], 'what is not served yet goes on');
+  open();
+  await idle(newest);
+  assert.deepEqual(ended, [[0, true], [9, false]]);
+});
+
+test('what is being served is ended at once by a newer wish', async () => {
+  const ended: number[] = [];
+  const newest = new Newest<number>((wish, turn) => new Promise((resolve) => {
+    turn.signal.addEventListener('abort', () => (ended.push(wish), resolve()));
+    turn.served();
+    if (wish === 2) resolve();
+  }), (error) => assert.fail(String(error)));
+  newest.ask(1);
+  newest.ask(2);
+  await idle(newest);
+  assert.deepEqual(ended, [1]);
 });
 
 test('what fails is told, and the next wish is done all the same', async () => {
@@ -120,10 +133,10 @@ test('what fails is told, and the next wish is done all the same', async () => {
     if (wish === 1) throw new Error('no');
     done.push(wish);
   }, (error) => told.push(error));
-  newest.ask(1);
-  await moment(2);
-  newest.ask(2);
-  await moment(2);
+  for (const wish of [1, 2]) {
+    newest.ask(wish);
+    await idle(newest);
+  }
   assert.equal(told.length, 1);
   assert.deepEqual(done, [2]);
 });

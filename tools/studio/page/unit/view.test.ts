@@ -2,7 +2,8 @@ import assert from 'node:assert/strict';
 import {test} from 'node:test';
 
 import type {PoseReport} from '../src/results/report';
-import {poseVerdict} from '../src/results/verdict';
+import {type StandResult, keyOf, nothing, shownJudgement} from '../src/results/results';
+import {poseVerdict, verdictOf} from '../src/results/verdict';
 import {degrees, wayOf} from '../src/results/words';
 import {counterclockwise, inset, tipTowardsDeg} from '../src/view/balance';
 import {paintBall} from '../src/view/paint';
@@ -44,6 +45,26 @@ test('the verdict falls, stands barely or stands', () => {
   assert.equal(line(9.999), 'Stands: 10.0 degrees');
 });
 
+const doc = {model: {id: 1, name: 'a.stl', bytes: 1}, job: {}, frame: ''};
+const judgement = {process: 'fdm', passes: true, checks: [], findings: []};
+const stood = (tip: number, code: number): StandResult => ({
+  key: keyOf(doc), message: '', code, voids: [], dense: null, report: {outcome: '', poses: [{...standing(-2), after: standing(tip).before}], judgement},
+  outside: code ? null : {name: 'outside', positions: new Float32Array(), triangles: new Uint32Array()},
+});
+
+test('a result is of its own job, and says when nothing was made', () => {
+  const line = (stand: StandResult, of: typeof doc) => verdictOf({...nothing, stand}, of, 0).line;
+  assert.equal(line(stood(10.4, 0), doc), 'Stands: 10.4 degrees');
+  assert.equal(line(stood(2.1, 3), doc), 'Nothing made: 2.1 degrees at best');
+  assert.equal(line(stood(10.4, 0), {...doc, job: {wall_mm: 3}}), '');
+});
+
+test('what was made is judged by the run that made it, not by what was said of the model', () => {
+  const asked = {key: keyOf(doc), of: 'model' as const, judgement: {...judgement, passes: false}};
+  assert.equal(shownJudgement({...nothing, judgement: asked}, doc)?.of, 'model');
+  assert.equal(shownJudgement({...nothing, judgement: asked, stand: stood(10.4, 0)}, doc)?.of, 'result');
+});
+
 const tetrahedron = () => new Surface({
   name: 'model', positions: new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1]),
   triangles: new Uint32Array([0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3]),
@@ -53,6 +74,7 @@ test('a surface knows its outside, its lowest point and how far it was moved', (
   const surface = tetrahedron();
   assert.ok(surface.facesOutward());
   assert.equal(surface.lowest(0, 0, -1), -1);
+  assert.deepEqual(surface.farthest([0, 1, 0]), [0, 1, 0]);
   const moved = Float32Array.from(surface.positions, (value, i) => (i === 11 ? value + 3 : value));
   assert.equal(surface.move(moved), 3);
   assert.equal(surface.positions[11], 4);

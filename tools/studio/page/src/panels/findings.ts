@@ -21,7 +21,7 @@ export function findingsPanel({documents, results, ui, conductor}: Bench): Part 
     said.hidden = judgement === null;
     if (judgement !== shown) {
       said.textContent = judgement ? summary(judgement, found!.of) : '';
-      said.dataset.tone = judgement?.passes ? 'stands' : 'falls';
+      said.dataset.tone = judgement?.passes ? 'stands' : judgement && found && isInherited(judgement, found.of) ? 'short' : 'falls';
       list.replaceChildren(...(judgement ? numbered(judgement) : []).map(({finding, number}) =>
         h('li', {class: finding.severity, 'data-number': number}, h('button', {
           'aria-pressed': false, onclick: () => ui.patch({finding: ui.value.finding === number ? null : number}),
@@ -32,17 +32,25 @@ export function findingsPanel({documents, results, ui, conductor}: Bench): Part 
     }
     for (const item of list.children as HTMLCollectionOf<HTMLElement>) {
       const isIt = Number(item.dataset.number) === ui.value.finding;
-      if (isIt && !item.classList.contains('open')) item.scrollIntoView({block: 'nearest'});
+      const isNew = isIt && !item.classList.contains('open');
       item.classList.toggle('open', isIt);
+      if (isNew) item.scrollIntoView({block: 'nearest'});
       item.querySelector('button')!.setAttribute('aria-pressed', String(isIt));
     }
   };
   return {element, update};
 }
 
+/** Whether a result fails nothing that the model as it came does not fail, too: with ballast the mesh is the same. */
+function isInherited(judgement: Judgement, of: 'model' | 'result'): boolean {
+  return of === 'result' && judgement.new_failures?.length === 0;
+}
+
 function summary(judgement: Judgement, of: 'model' | 'result'): string {
   const fails = judgement.checks.filter((check) => check.verdict.startsWith('fail')).length;
+  const checks = `${fails} ${fails === 1 ? 'check fails' : 'checks fail'}`;
+  if (!judgement.passes && isInherited(judgement, of)) return `By itself (${judgement.process}) ${checks}, as for the model as it came.`;
   const what = of === 'model' ? 'The model as it came' : 'What was made';
   return judgement.passes ? `${what} prints (${judgement.process}).`
-    : `${what} will not print as it is (${judgement.process}): ${fails} ${fails === 1 ? 'check fails' : 'checks fail'}.`;
+    : `${what} will not print as it is (${judgement.process}): ${checks}.`;
 }

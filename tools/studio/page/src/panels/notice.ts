@@ -1,25 +1,30 @@
 import type {Bench} from '../tools/tool';
-import {h, icon} from './dom';
+import {freshStand} from '../results/results';
+import {edited} from '../state/job';
+import {h, icon, say} from './dom';
 import type {Part} from './fields';
 import {icons} from './icons';
+
+const cannotStand = 3; // the program's exit code
 
 /** What went wrong, in the program's own sentence. */
 export function noticeBar({results, conductor, documents}: Bench): Part {
   const text = h('p', {});
   const again = h('button', {class: 'plain small', id: 'again', onclick: () => conductor.again()}, 'Try again');
+  const bend = h('button', {class: 'plain small', id: 'let-bend', title: 'Cut a little off the base, and bend the outside a little', onclick: () => {
+    documents.change(edited(documents.doc.job, {deform: 'auto'}), 'let it bend');
+    void conductor.runs.stand();
+  }}, 'Let the outside bend');
   const close = h('button', {class: 'round', 'aria-label': 'Dismiss', title: 'Dismiss', onclick: () =>
     results.patch({notice: null})}, icon(icons.close));
-  const element = h('div', {class: 'notice', role: 'alert', id: 'notice'}, text, again, close);
+  const element = h('div', {class: 'notice', role: 'alert', id: 'notice'}, text, again, bend, close);
   const update = () => {
     const {notice} = results.value;
     element.hidden = notice === null;
-    if (notice && text.textContent !== sentence(notice.sentence)) text.textContent = sentence(notice.sentence);
+    if (notice) say(text, notice.sentence);
+    const tried = freshStand(results.value, documents.doc), stays = (documents.doc.job.deform ?? 'never') === 'never';
+    bend.hidden = !(tried?.code === cannotStand && stays);
     again.hidden = documents.doc.model === null || results.value.check !== null;
   };
   return {element, update};
-}
-
-/** As it was said, with a capital letter at its head. */
-function sentence(said: string): string {
-  return said;
 }

@@ -1,7 +1,7 @@
-import type {Bench} from '../tools/tool';
-import {type Pose, edited, poseName, posesOf, vectorOf, withHang, withPose, withStand} from '../state/job';
+import {type Bench, tenth} from '../tools/tool';
+import {type Pose, type Vec3, edited, poseName, posesOf, vectorOf, withHang, withPose, withStand} from '../state/job';
 import {verdictOf} from '../results/verdict';
-import {h, icon} from './dom';
+import {h, icon, say} from './dom';
 import {type Part, choiceField, numberField, paired} from './fields';
 import {icons} from './icons';
 
@@ -13,7 +13,7 @@ const ways: readonly (readonly [string, string])[] = [
 /** The poses as tabs, and what is asked of the one that is open. */
 export function posePanel(bench: Bench): Part {
   const {documents, ui} = bench;
-  const tabs = h('div', {class: 'tabs', role: 'tablist', 'aria-label': 'Poses', onkeydown: (event: KeyboardEvent) => {
+  const tabs = h('div', {class: 'tab-list', role: 'tablist', 'aria-label': 'Poses', onkeydown: (event: KeyboardEvent) => {
     const step = event.key === 'ArrowRight' ? 1 : event.key === 'ArrowLeft' ? -1 : 0, all = posesOf(documents.doc.job).length;
     if (!step) return;
     ui.patch({pose: (ui.value.pose + step + all) % all});
@@ -32,11 +32,12 @@ export function posePanel(bench: Bench): Part {
   }}, 'Remove');
   const body = h('div', {class: 'pose-body', role: 'tabpanel', 'aria-label': 'Pose'},
                  h('div', {class: 'pose-head'}, name, remove), ...fields.map((field) => field.element));
-  const element = h('section', {class: 'poses'}, tabs, body);
+  const add = adder(bench), element = h('section', {class: 'poses'}, h('div', {class: 'tabs'}, tabs, add), body);
   const update = () => {
     const {job} = documents.doc, poses = posesOf(job), at = Math.min(ui.value.pose, poses.length - 1);
     if (at !== ui.value.pose) ui.patch({pose: at});
-    tabs.replaceChildren(...poses.map((pose, index) => tab(bench, pose, index, index === at)), adder(bench));
+    tabs.replaceChildren(...poses.map((pose, index) => tab(bench, pose, index, index === at)));
+    say(add.lastElementChild as HTMLElement, poses.length > 1 ? '' : 'Add a pose');
     const pose = current();
     if (document.activeElement !== name) name.value = poseName(pose, at);
     remove.hidden = poses.length < 2;
@@ -59,7 +60,7 @@ function adder(bench: Bench): HTMLElement {
     const {documents, ui} = bench, poses = posesOf(documents.doc.job);
     documents.change({...documents.doc.job, poses: [...poses, {stand: {up: '-z'}}]}, 'add a pose');
     ui.patch({pose: poses.length});
-  }}, icon(icons.plus), (bench.documents.doc.job.poses?.length ?? 1) > 1 ? '' : 'Add a pose');
+  }}, icon(icons.plus), h('span', {}));
 }
 
 function poseFields(bench: Bench, current: () => Pose, change: (pose: Pose, label: string) => void): Part[] {
@@ -68,9 +69,8 @@ function poseFields(bench: Bench, current: () => Pose, change: (pose: Pose, labe
   const kind = choiceField({
     label: 'It', options: () => [['stand', 'stands'], ['hang', 'hangs']], value: () => (current().hang ? 'hang' : 'stand'),
     change: (value) => {
-      const {name} = current(), up = own(), box = bench.results.value.placed?.placed.box_mm;
-      const top = box ? [(box[0][0] + box[1][0]) / 2, (box[0][1] + box[1][1]) / 2, box[1][2]] as const : [0, 0, 0] as const;
-      change(edited({name, ...(value === 'hang' ? {hang: edited({from_mm: [top], up}, {})} : {stand: edited({up}, {})})} as Pose, {}), 'pose');
+      const {name} = current(), up = own(), top = bench.view.figure.outside?.farthest(vectorOf(up)) ?? [0, 0, 0];
+      change(edited({name, ...(value === 'hang' ? {hang: edited({from_mm: [top.map(tenth) as unknown as Vec3], up}, {})} : {stand: edited({up}, {})})} as Pose, {}), 'pose');
     },
   });
   const asked = numberField({

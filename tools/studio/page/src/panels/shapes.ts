@@ -23,7 +23,7 @@ export function shapePanel(bench: Bench): Part {
     documents.change(edited(documents.doc.job, {lock: undefined}), 'unlock')}, 'Unlock all');
   const moved = h('p', {class: 'soft', id: 'moved'});
   const locks = h('div', {class: 'field'}, h('span', {class: 'label'}, 'Locked'), h('span', {class: 'row'}, text, unlock));
-  const element = h('details', {open: true, class: 'section'}, h('summary', {}, 'Shape'), list, body, locks, moved);
+  const element = h('details', {open: true, class: 'section'}, h('summary', {}, 'Shape'), list, moved, body, locks);
   const update = () => {
     const handles = documents.job.handles ?? [], count = documents.job.lock?.length ?? 0;
     element.hidden = handles.length === 0 && count === 0;
@@ -32,7 +32,7 @@ export function shapePanel(bench: Bench): Part {
     fields.forEach((field) => field.update());
     text.textContent = count ? 'where painted' : 'nothing';
     locks.hidden = count === 0;
-    moved.textContent = bench.view.moved_mm > 0 ? movedText(bench) : '';
+    moved.textContent = bench.view.moved_mm.value > 0 ? movedText(bench) : '';
     moved.hidden = moved.textContent === '';
   };
   return {element, update};
@@ -41,7 +41,7 @@ export function shapePanel(bench: Bench): Part {
 function movedText({view, results}: Bench): string {
   const preview = results.value.preview?.preview, rate = results.value.previewsPerSecond;
   const short = preview && preview.handle_short_mm > 0.05 ? `; the handle lacks ${preview.handle_short_mm.toFixed(1)} mm` : '';
-  return `Moved by up to ${view.moved_mm.toFixed(1)} mm${short}${rate ? `; ${rate.toFixed(1)} previews a second` : ''}`;
+  return `Moved by up to ${view.moved_mm.value.toFixed(1)} mm${short}${rate ? `; ${rate.toFixed(1)} previews a second` : ''}`;
 }
 
 function chip({documents, ui}: Bench, index: number): HTMLElement {

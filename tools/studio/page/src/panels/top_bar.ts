@@ -12,7 +12,7 @@ interface Actions {
 /** What is open, the verdict, and the buttons that are always there. */
 export function topBar({documents}: Bench, verdict: HTMLElement, theme: Theme, actions: Actions): Part {
   const name = h('span', {class: 'model-name'});
-  const open = h('button', {class: 'open', id: 'open', title: 'Open another model (Ctrl+O)', onclick: actions.open},
+  const open = h('button', {class: 'opener', id: 'open', title: 'Open another model (Ctrl+O)', onclick: actions.open},
                  icon(icons.open), name);
   const undo = round('undo', 'Undo', () => documents.undo()), redo = round('redo', 'Redo', () => documents.redo());
   const light = round('light', 'Light or dark', () => theme.toggle()), help = round('help', 'Keys', actions.help);

@@ -1,14 +1,13 @@
-import type {DocumentStore} from '../state/document';
-import type {UiStore} from '../state/ui';
-import type {ResultsStore} from '../results/results';
+import type {Bench} from '../tools/tool';
 import {type Tone, heldPoses, verdictOf} from '../results/verdict';
 import {h, icon, say} from './dom';
+import type {Part} from './fields';
 import {icons} from './icons';
 
 const pictures: Record<Tone, keyof typeof icons> = {falls: 'falls', short: 'short', stands: 'stands', none: 'wait'};
 
 /** The verdict: one line, always of what is shown now, read out when it changes. */
-export function verdictLine(documents: DocumentStore, results: ResultsStore, ui: UiStore): HTMLElement {
+export function verdictLine({documents, results, ui, conductor}: Bench): Part {
   const line = h('h1', {class: 'verdict-line', id: 'verdict', role: 'status', 'aria-live': 'polite'});
   const detail = h('p', {class: 'verdict-detail', id: 'verdict-detail'});
   const picture = h('span', {class: 'verdict-picture'});
@@ -17,9 +16,9 @@ export function verdictLine(documents: DocumentStore, results: ResultsStore, ui:
   const update = () => {
     const {doc} = documents, asked = {...doc, job: documents.job}, now = results.value;
     element.hidden = doc.model === null && now.busy === null;
-    const verdict = verdictOf(now, asked, ui.value.pose, documents.state.value.wish !== null);
-    const isOld = verdict.line === '' && documents.state.value.wish !== null; // the next preview is on its way
-    if (isOld) return;
+    const isComing = conductor.previews.busy; // until then the last preview holds
+    const verdict = verdictOf(now, asked, ui.value.pose, isComing);
+    if (verdict.line === '' && isComing && documents.state.value.wish) return;
     const held = heldPoses(now, doc);
     const others = held && held.all > 1 ? `; ${held.held} of ${held.all} poses hold` : '';
     say(line, verdict.line || waiting(now.notice !== null, now.busy?.stage));
@@ -28,11 +27,7 @@ export function verdictLine(documents: DocumentStore, results: ResultsStore, ui:
     if (shown !== verdict.tone) picture.replaceChildren(icon(icons[pictures[verdict.tone]]));
     shown = verdict.tone;
   };
-  documents.state.subscribe(update);
-  results.subscribe(update);
-  ui.subscribe(update);
-  update();
-  return element;
+  return {element, update};
 }
 
 function waiting(failed: boolean, stage: string | undefined): string {

@@ -25,14 +25,14 @@ export class Conductor {
   readonly #matrices = new Map<string, readonly number[]>(); // from the file, by model and placement
 
   constructor(private readonly client: Client, private readonly documents: DocumentStore,
-              private readonly results: ResultsStore) {
+              private readonly results: ResultsStore, private readonly mostBytes: number) {
     const failed = (error: unknown) => this.fail(error);
     this.#quick = new Newest<Doc>((doc, turn) => this.#see(doc, turn), failed);
     this.runs = new Runs(client, documents, results, failed);
     this.previews = new PreviewFlow(client, documents, results, failed);
     documents.state.subscribe((state, before) => {
       if (state.history !== before.history) this.#changed(before.history.present.value);
-      else if (state.wish && state.wish !== before.wish) this.previews.ask();
+      else if (state.wish && state.wish !== before.wish) this.#wished();
       else if (!state.wish && before.wish) this.previews.ask(); // dropped: back to what is
     });
   }
@@ -45,7 +45,14 @@ export class Conductor {
   }
 
   async openFile(file: File): Promise<void> {
-    await this.#open(`Reading ${file.name}`, () => this.client.upload<Model>(file.name, file));
+    await this.#open(`Reading ${file.name}`, () => this.#upload(file));
+  }
+
+  /** A file that is too large is not sent at all: the server would hang up on it. */
+  async #upload(file: File): Promise<Model> {
+    const most = Math.floor(this.mostBytes / 2 ** 20);
+    if (file.size > this.mostBytes) throw new Error(`a file may have up to ${most} MB here`);
+    return this.client.upload<Model>(file.name, file);
   }
 
   async openFixture(name: string): Promise<void> {
@@ -71,6 +78,12 @@ export class Conductor {
   async cancel(): Promise<void> {
     this.runs.cancel();
     await this.client.json('/api/cancel', {}).catch((error: unknown) => this.fail(error));
+  }
+
+  /** A hand drags: what runs is of another job, and would make the previews wait. */
+  #wished(): void {
+    this.runs.cancel();
+    this.previews.ask();
   }
 
   #changed(before: Doc): void {

@@ -23,6 +23,11 @@ export class PreviewFlow {
     this.#newest = new Newest<Wish>((wish, turn) => this.#follow(wish, turn), failed);
   }
 
+  /** Whether an answer is on its way. */
+  get busy(): boolean {
+    return this.#newest.busy;
+  }
+
   /** A hand takes hold: previews are counted from here on. */
   begin(): void {
     this.#arrivals = [];

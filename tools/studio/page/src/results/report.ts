@@ -58,6 +58,7 @@ export interface Finding {
 export interface Judgement {
   readonly process: string;
   readonly passes: boolean;
+  readonly new_failures?: readonly string[]; // of a result: those that the model as it came does not have
   readonly checks: readonly Check[];
   readonly findings: readonly Finding[];
 }

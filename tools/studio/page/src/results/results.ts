@@ -85,8 +85,8 @@ export function freshPreview(results: Results, doc: Pick<Doc, 'model' | 'job'>):
 
 /** The judgement to be shown: of the run that was asked for, or of the model as it came. */
 export function shownJudgement(results: Results, doc: Doc): JudgementResult | null {
-  const key = keyOf(doc);
-  if (results.judgement?.key === key) return results.judgement;
-  const judged = freshStand(results, doc)?.report.judgement;
-  return judged ? {key, of: 'result', judgement: judged} : null;
+  const key = keyOf(doc), stand = freshStand(results, doc), asked = results.judgement?.key === key ? results.judgement : null;
+  if (!stand?.outside) return asked;
+  const judged = stand.report.judgement;
+  return judged ? {key, of: 'result', judgement: judged} : asked?.of === 'result' ? asked : null;
 }

@@ -52,18 +52,26 @@ export function figuresOf(results: Results, doc: Doc, index: number): {pose: Pos
   return pose ? {pose, figures: pose.after ?? pose.before} : null;
 }
 
-/** The verdict of one pose of the document as it is now; while a hand drags, of the last preview that came. */
-export function verdictOf(results: Results, doc: Doc, index: number, isHeld = false): Verdict {
+/** The verdict of one pose of the document as it is now; while a preview is coming, of the last that came. */
+export function verdictOf(results: Results, doc: Doc, index: number, isComing = false): Verdict {
   const stand = freshStand(results, doc);
   const pose = stand?.report.poses[index];
+  if (stand && pose && stand.code && !stand.outside) return inVain(poseVerdict(pose, pose.after ?? pose.before), pose);
   if (stand && pose) return ofRun(poseVerdict(pose, pose.after ?? pose.before), pose);
-  const preview = !bends(doc.job) ? null : isHeld ? results.preview : freshPreview(results, doc);
+  const preview = !bends(doc.job) ? null : isComing ? results.preview : freshPreview(results, doc);
   const bent = preview?.preview.poses[index];
   if (preview && bent) return bentVerdict(bent, results, doc, index, preview.preview.carved_deg);
   const check = freshCheck(results, doc)?.report.poses[index];
   if (!check || bends(doc.job)) return unknown;
   const verdict = poseVerdict(check, check.before);
   return {...verdict, detail: `${verdict.detail}; as a solid`};
+}
+
+/** Nothing was written: the figures are of the best that there would be. */
+function inVain(best: Verdict, pose: PoseReport): Verdict {
+  const figures = pose.after ?? pose.before, angle = pose.kind === 'hanging' ? figures.tilt_deg : figures.tip_deg;
+  const reach = typeof angle === 'number' ? `: ${degrees(angle)} degrees at best` : '';
+  return {...ofRun(best, pose), tone: best.tone === 'falls' ? 'falls' : 'short', line: `Nothing made${reach}`};
 }
 
 function ofRun(verdict: Verdict, pose: PoseReport): Verdict {

@@ -31,7 +31,7 @@ export class LockBrush implements Tool {
   cancel(): boolean {
     const held = this.#stroke !== null;
     this.#stroke = null;
-    this.bench.view.update();
+    this.bench.view.paintAnew();
     return held;
   }
 

@@ -15,14 +15,19 @@ export class TurnTool implements Tool {
 
   constructor(private readonly bench: Bench) {
     this.#gizmo = new Gizmo(bench.view.stage, bench.view.stage.scene, true);
-    bench.results.subscribe(() => {
-      if (bench.ui.value.tool === 'turn' && !this.#grip) this.begin();
-    });
+    bench.view.stage.beforeDraw.add(() => this.#follow());
   }
 
   begin(): void {
     const box = this.bench.view.figure.box();
     this.#gizmo.show(box.isEmpty() ? null : box.getCenter(new Vector3()), parts);
+  }
+
+  /** Keeps to the middle of a figure that was placed anew. */
+  #follow(): void {
+    const box = this.bench.view.figure.box();
+    if (this.bench.ui.value.tool !== 'turn' || this.#grip || box.isEmpty()) return;
+    if (box.getCenter(new Vector3()).distanceTo(this.#gizmo.group.position) > 1e-6) this.begin();
   }
 
   end(): void {

@@ -27,6 +27,8 @@ export class Figure {
   #meshes: Mesh[] = [];
   #inks: Inks | null = null;
   #look: Look = 'solid';
+  #box: Box3 | null = null; // of what is shown as it stands, once it was asked for
+  #stance = '';
 
   constructor() {
     this.section = new Section(this.pose, this.caps);
@@ -36,6 +38,7 @@ export class Figure {
   show(surfaces: Surfaces | null): boolean {
     if (surfaces === this.#shown || (surfaces && this.#shown && same(surfaces, this.#shown))) return false;
     this.#shown = surfaces;
+    this.#box = null;
     for (const old of [this.outside, ...this.#voids, this.#dense]) old?.dispose();
     this.outside = surfaces && new Surface(surfaces.outside);
     this.#voids = surfaces?.voids.map((mesh) => new Surface(mesh)) ?? [];
@@ -49,17 +52,33 @@ export class Figure {
     return this.#voids.length > 0 || this.#dense !== null;
   }
 
+  /** Moves the outside's vertices, or back to rest. \return the largest way of one, mm. */
+  bend(positions: Float32Array | null): number {
+    this.#box = null;
+    return this.outside?.move(positions) ?? 0;
+  }
+
   /** Turns it so that `up` points up, and sets it down at `lift` mm over the plate. */
   stand(up: Vec3, lift: number): void {
+    const stance = JSON.stringify([up, lift]);
+    this.pose.updateWorldMatrix(true, true); // what it stands in may just have been put back
+    if (this.#box && this.#stance === stance) return;
+    this.#stance = stance;
+    this.#box = null;
     this.pose.quaternion.copy(turnUpright(up));
     const low = new Vector3(0, 0, 1).applyQuaternion(this.pose.quaternion.clone().invert());
     const lowest = this.outside?.lowest(low.x, low.y, low.z) ?? 0;
     this.pose.position.set(0, 0, Number.isFinite(lowest) ? lift - lowest : 0);
-    this.pose.updateWorldMatrix(true, true); // what it stands in may just have been put back
+    this.pose.updateWorldMatrix(true, true);
   }
 
   /** Its box on the plate of the pose. */
   box(): Box3 {
+    this.#box ??= this.#measured();
+    return this.#box.clone();
+  }
+
+  #measured(): Box3 {
     const box = new Box3(), at = new Vector3(), turn = new Quaternion().copy(this.pose.quaternion);
     const p = this.outside?.positions ?? [];
     for (let i = 0; i < p.length; i += 3) box.expandByPoint(at.fromArray(p, i).applyQuaternion(turn));
@@ -93,7 +112,7 @@ export class Figure {
     if (xray) this.#add(outside, inks.model, {opacity: 0.12, side: BackSide}, 7);
     if (this.#look === 'solid') return;
     for (const one of this.#voids) this.#add(one, inks.void, {side: DoubleSide, clip}, 0);
-    if (this.#dense && xray) this.#add(this.#dense, inks.dense, {side: DoubleSide}, 0);
+    if (this.#dense && xray) this.#add(this.#dense, inks.dense, {opacity: 0.3}, 9); // it may reach beyond the model
   }
 
   #add(surface: Surface, color: Color, options: Parameters<typeof clay>[1], order: number): void {

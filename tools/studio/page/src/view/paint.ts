@@ -10,7 +10,25 @@ interface Painted {
 }
 
 /** Marks the vertices that lie in the balls of a job: what is locked, what may touch in this pose, what handles hold. */
-export function paintRegions(surface: Surface, job: Job, pose: number, height: number): void {
+export class Painter {
+  #done: readonly unknown[] = [];
+
+  /** Paints what is not painted yet. */
+  paint(surface: Surface, job: Job, pose: number, height: number): void {
+    const held = JSON.stringify(job.handles?.map((handle) => [handle.at_mm, handle.radius_mm]));
+    const wanted = [surface, job.lock, job.poses?.[pose]?.stand?.contacts, held, height];
+    if (wanted.every((one, i) => one === this.#done[i])) return;
+    this.#done = wanted;
+    paintRegions(surface, job, pose, height);
+  }
+
+  /** Forgets what was painted, as when a stroke was dropped. */
+  forget(): void {
+    this.#done = [];
+  }
+}
+
+function paintRegions(surface: Surface, job: Job, pose: number, height: number): void {
   const least = 0.01 * height; // so that a point can be seen
   const ball = (b: {at_mm: Vec3; radius_mm?: number}, as: number, standard = least): Painted =>
     ({at: b.at_mm, radius: Math.max(least, b.radius_mm ?? standard), as});

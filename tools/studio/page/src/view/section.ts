@@ -1,7 +1,7 @@
 import {
   AlwaysStencilFunc, BackSide, Color, DecrementWrapStencilOp, DoubleSide, EqualStencilFunc, FrontSide, type Group,
-  IncrementWrapStencilOp, Mesh, MeshBasicMaterial, NotEqualStencilFunc, Plane, PlaneGeometry, ReplaceStencilOp, type Side,
-  ShaderMaterial, type StencilFunc, type StencilOp, Vector3, type WebGLRenderer,
+  IncrementWrapStencilOp, KeepStencilOp, Mesh, MeshBasicMaterial, Plane, PlaneGeometry, type Side,
+  ShaderMaterial, type StencilOp, Vector3,
 } from 'three';
 
 import type {Inks} from './inks';
@@ -17,7 +17,7 @@ const normals: Record<CutAxis, Vector3> = {
  * A plane that cuts the figure open. Walls are hatched as on a drawing, dense infill is hatched across, voids stay open.
  *
  * The stencil counts how often a pixel's line of sight goes in and out behind the plane: outer surfaces add one, voids take
- * it away, so it is one exactly where there is wall.
+ * it away, so it is one exactly where there is wall; dense infill adds one more, and counts where that makes two.
  */
 export class Section {
   readonly plane = new Plane(normals.y.clone(), 0);
@@ -27,8 +27,8 @@ export class Section {
 
   /** `parent`: of what is cut; `plate`: of the cut's faces, in whose coordinates the plane is. */
   constructor(private readonly parent: Group, plate: Group) {
-    this.#wall = cap(EqualStencilFunc, 1, 1.2);
-    this.#dense = cap(NotEqualStencilFunc, 0, 2.2);
+    this.#wall = cap(1, 1.2);
+    this.#dense = cap(2, 2.2);
     plate.add(this.#wall, this.#dense);
     this.show(false);
   }
@@ -90,8 +90,8 @@ export class Section {
   }
 }
 
-/** A plane that is drawn where the stencil says so, and leaves the stencil empty. */
-function cap(compare: StencilFunc, reference: number, order: number): Mesh {
+/** A plane that is drawn where the stencil has counted to a number. Each picture begins with an empty stencil. */
+function cap(count: number, order: number): Mesh {
   const material = new ShaderMaterial({
     uniforms: {ground: {value: new Color()}, line: {value: new Color()}, across: {value: 0}, pitch: {value: 100}},
     vertexShader: 'varying vec2 at; void main() { at = uv; gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); }',
@@ -103,12 +103,11 @@ function cap(compare: StencilFunc, reference: number, order: number): Mesh {
         gl_FragColor = vec4(mix(ground, line, s), 1.0);
         #include <colorspace_fragment>
       }`,
-    side: DoubleSide, stencilWrite: true, stencilRef: reference, stencilFunc: compare,
-    stencilFail: ReplaceStencilOp, stencilZFail: ReplaceStencilOp, stencilZPass: ReplaceStencilOp,
-    polygonOffset: reference === 0, polygonOffsetFactor: -1, polygonOffsetUnits: -1,
+    side: DoubleSide, stencilWrite: true, stencilRef: count, stencilFunc: EqualStencilFunc,
+    stencilFail: KeepStencilOp, stencilZFail: KeepStencilOp, stencilZPass: KeepStencilOp,
+    polygonOffset: count === 2, polygonOffsetFactor: -1, polygonOffsetUnits: -1,
   });
   const mesh = new Mesh(new PlaneGeometry(1, 1), material);
   mesh.renderOrder = order;
-  mesh.onAfterRender = (renderer: WebGLRenderer) => renderer.clearStencil();
   return mesh;
 }

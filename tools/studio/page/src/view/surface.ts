@@ -1,5 +1,6 @@
 import {BufferAttribute, BufferGeometry, DynamicDrawUsage} from 'three';
 
+import type {Vec3} from '../state/job';
 import type {MeshData} from '../transport/frames';
 
 const creaseCosine = Math.cos((38 * Math.PI) / 180);
@@ -64,6 +65,16 @@ export class Surface {
     for (let i = 0; i < this.positions.length; i += 3)
       low = Math.min(low, this.positions[i]! * x + this.positions[i + 1]! * y + this.positions[i + 2]! * z);
     return low;
+  }
+
+  /** The vertex that is farthest along a direction, before any bend. */
+  farthest([x, y, z]: Vec3): Vec3 {
+    let best = 0, most = -Infinity;
+    for (let i = 0; i < this.rest.length; i += 3) {
+      const far = this.rest[i]! * x + this.rest[i + 1]! * y + this.rest[i + 2]! * z;
+      if (far > most) [best, most] = [i, far];
+    }
+    return [this.rest[best]!, this.rest[best + 1]!, this.rest[best + 2]!];
   }
 
   /** Six times the volume's sign: whether the triangles face outward. */

@@ -2,6 +2,7 @@ import {Group, Vector3} from 'three';
 
 import type {DocumentStore} from '../state/document';
 import {type Vec3, bends, posesOf, poseUp} from '../state/job';
+import {Signal} from '../state/signal';
 import type {UiStore} from '../state/ui';
 import {type ResultsStore, freshStand, shownJudgement} from '../results/results';
 import {figuresOf} from '../results/verdict';
@@ -14,7 +15,7 @@ import {GroundMarks} from './ground_marks';
 import {type Inks, readInks} from './inks';
 import {Labels} from './labels';
 import {MassMark} from './mass_mark';
-import {paintRegions} from './paint';
+import {Painter} from './paint';
 import {Picker} from './pick';
 import {Plate} from './plate';
 import {type Side, Stage} from './stage';
@@ -32,17 +33,20 @@ export class View {
   readonly #now = new MassMark();
   readonly #before = new MassMark();
   readonly #marks = new PoseMarks();
+  readonly #painter = new Painter();
   readonly #findings: FindingMarks;
   readonly #player: FallPlayer;
   readonly #weakLabel = document.createElement('span');
   readonly #front = document.createElement('span');
   #inks: Inks = readInks();
   #seen = '';
-  moved_mm = 0; // the largest way of a vertex in what is shown
+  #isOld = true;
+  readonly moved_mm = new Signal(0); // the largest way of a vertex in what is shown
 
   constructor(canvas: HTMLCanvasElement, room: HTMLElement, private readonly documents: DocumentStore,
               private readonly results: ResultsStore, private readonly ui: UiStore) {
     this.stage = new Stage(canvas);
+    this.stage.beforeDraw.add(() => this.#refresh()); // before what follows the figure
     this.picker = new Picker(this.stage, this.figure);
     this.labels = new Labels(this.stage, room);
     this.figure.pose.add(this.#marks.group);
@@ -75,7 +79,22 @@ export class View {
     this.update();
   }
 
+  /** Paints the job's regions again, as when a stroke was dropped. */
+  paintAnew(): void {
+    this.#painter.forget();
+    this.update();
+  }
+
+  /** Asks for all to be brought up to date, with the next picture. */
   update(): void {
+    this.#isOld = true;
+    this.stage.hasModel = this.documents.doc.model !== null;
+    this.stage.invalidate();
+  }
+
+  #refresh(): void {
+    if (!this.#isOld) return;
+    this.#isOld = false;
     const {doc} = this.documents, results = this.results.value, ui = this.ui.value, job = this.documents.job;
     const stand = freshStand(results, doc), fits = results.placed !== null && doc.model !== null;
     const surfaces: Surfaces | null = !fits ? null
@@ -89,13 +108,12 @@ export class View {
     const {height} = this.#size();
     this.figure.look(ui.look);
     this.figure.stand(poseUp(pose), pose.hang ? 0.08 * height : 0);
-    if (this.figure.outside) paintRegions(this.figure.outside, job, index, height);
+    if (this.figure.outside) this.#painter.paint(this.figure.outside, job, index, height);
     this.#frameWhenNew(isOther);
     this.#cut();
     if (!this.#player.playing) this.#drawBalance(index);
     this.#marks.show(job, index, this.#inks, height, ui.handle);
     this.#findings.show(surfaces ? shownJudgement(results, doc)?.judgement ?? null : null);
-    this.stage.invalidate();
   }
 
   #bend(surfaces: Surfaces | null, isOther: boolean): void {
@@ -106,13 +124,13 @@ export class View {
     const positions = preview?.positions?.length === outside.positions.length ? preview.positions : null;
     if (isOther || positions !== this.#bent) {
       if (positions || this.#bent) {
-        this.moved_mm = outside.move(positions);
+        this.moved_mm.set(this.figure.bend(positions));
         this.picker.moved();
         this.#toMark = preview ? {name: 'aplomb-preview-drawn', wish: preview.preview.wish} : null;
       }
       this.#bent = positions;
     }
-    if (!positions) this.moved_mm = 0;
+    if (!positions) this.moved_mm.set(0);
   }
   #bent: Float32Array | null = null;
   #toMark: {name: string; wish: number} | null = null; // what the next picture shows for the first time
