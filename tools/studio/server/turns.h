@@ -13,6 +13,7 @@ enum class Errand { place, check, preview, validate, stand };
 
 /// One wish to have the solver.
 struct Turn {
+  explicit Turn(Errand what) : errand(what) {}
   Errand errand;
   std::atomic<bool> is_cancelled{false};
 };
