@@ -135,7 +135,7 @@ class Guard(unittest.TestCase):
 
     def test_nothing_is_left_of_what_was_refused_or_cut_off(self):
         def kept():
-            return sorted(str(path) for path in self.models.rglob("*"))
+            return sorted(os.path.join(folder, name) for folder, _, files in os.walk(self.models) for name in (".", *files))
         before = kept()
         for length in ("2000000", "50000"):  # too long; more than will come
             with socket.create_connection(("127.0.0.1", self.studio.port)) as raw:
