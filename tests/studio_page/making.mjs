@@ -84,8 +84,18 @@ export function making(bench) {
       await page.click('#judge');
       await page.locator('.findings li.fail').first().waitFor();
       const mark = page.locator('.finding-mark').first();
-      await mark.evaluate((button) => button.click());
+      await mark.dispatchEvent('click'); // it may lie under another one
       await page.locator(`.findings li.open[data-number="${await mark.textContent()}"]`).waitFor();
+    });
+
+    test('where it is asked for, a run begins when the hand rests, and once for each job', async () => {
+      const once = page.getByLabel('Answer at once');
+      await once.check();
+      await page.click('#cancel');
+      await page.locator('#make').waitFor();
+      await page.waitForTimeout(500);
+      assert.equal(await page.locator('#cancel').isVisible(), false);
+      await once.uncheck();
       assert.deepEqual(page.complaints, []);
     });
   });

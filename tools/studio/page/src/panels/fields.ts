@@ -82,7 +82,8 @@ export function tripleField(label: string, unit: string, step: number, value: ()
   }));
   return {
     element: h('div', {class: 'field triple', role: 'group', 'aria-label': label}, h('span', {class: 'label'}, label),
-               h('span', {class: 'three'}, ...inputs.map((input, axis) => h('span', {class: 'with-unit'}, h('span', {class: 'axis', 'aria-hidden': 'true'}, 'xyz'[axis]!), input)),
+               h('span', {class: 'three'}, ...inputs.map((input, axis) =>
+                 h('span', {class: 'with-unit'}, h('span', {class: 'axis', 'aria-hidden': 'true'}, 'xyz'[axis]!), input)),
                  h('span', {class: 'unit', 'aria-hidden': 'true'}, unit))),
     update: () => inputs.forEach((input, axis) => {
       const number = value()?.[axis] ?? 0, text = number === 0 ? '' : String(Math.round(number * 100) / 100);

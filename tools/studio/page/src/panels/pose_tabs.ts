@@ -70,7 +70,9 @@ function poseFields(bench: Bench, current: () => Pose, change: (pose: Pose, labe
     label: 'It', options: () => [['stand', 'stands'], ['hang', 'hangs']], value: () => (current().hang ? 'hang' : 'stand'),
     change: (value) => {
       const {name} = current(), up = own(), top = bench.view.figure.outside?.farthest(vectorOf(up)) ?? [0, 0, 0];
-      change(edited({name, ...(value === 'hang' ? {hang: edited({from_mm: [top.map(tenth) as unknown as Vec3], up}, {})} : {stand: edited({up}, {})})} as Pose, {}), 'pose');
+      const from_mm = [top.map(tenth) as unknown as Vec3];
+      const pose: Pose = value === 'hang' ? {name, hang: edited({from_mm, up}, {})} : {name, stand: edited({up}, {})};
+      change(edited(pose, {}), 'pose');
     },
   });
   const asked = numberField({

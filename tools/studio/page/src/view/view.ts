@@ -7,7 +7,7 @@ import type {UiStore} from '../state/ui';
 import {type ResultsStore, freshStand, shownJudgement} from '../results/results';
 import {figuresOf} from '../results/verdict';
 import {degrees, wayOf} from '../results/words';
-import {type Balance, counterclockwise} from './balance';
+import {type Balance, type OnPlate, counterclockwise} from './balance';
 import {FallPlayer, fallOver} from './fall';
 import {Figure, type Surfaces} from './figure';
 import {FindingMarks} from './finding_marks';
@@ -41,6 +41,8 @@ export class View {
   #inks: Inks = readInks();
   #seen = '';
   #isOld = true;
+  #bent: Float32Array | null = null; // the positions that are shown
+  #toMark: {name: string; wish: number} | null = null; // what the next picture shows for the first time
   readonly moved_mm = new Signal(0); // the largest way of a vertex in what is shown
 
   constructor(canvas: HTMLCanvasElement, room: HTMLElement, private readonly documents: DocumentStore,
@@ -132,8 +134,6 @@ export class View {
     }
     if (!positions) this.moved_mm.set(0);
   }
-  #bent: Float32Array | null = null;
-  #toMark: {name: string; wish: number} | null = null; // what the next picture shows for the first time
 
   #size(): {height: number; largest: number} {
     const box = this.results.value.placed?.placed.box_mm;
@@ -187,18 +187,21 @@ export class View {
       return;
     }
     const balance: Balance = {polygon: counterclockwise(polygon.map(onPlate)), com: [com.x, com.y, com.z]};
-    const box = this.figure.box(), center2 = balance.polygon.reduce((sum, p) => ({x: sum.x + p.x / polygon.length, y: sum.y + p.y / polygon.length}), {x: 0, y: 0});
-    const radius = Math.max(0.3 * largest, ...balance.polygon.map((p) => 1.25 * Math.hypot(p.x - center2.x, p.y - center2.y)));
+    const box = this.figure.box(), center = middleOf(balance.polygon);
+    const reach = balance.polygon.map((p) => 1.25 * Math.hypot(p.x - center.x, p.y - center.y));
+    const radius = Math.max(0.3 * largest, ...reach);
     this.#ground.show({
       balance, weakEdge: edge ? [onPlate(edge.from_mm), onPlate(edge.to_mm)] : null,
-      askedDeg: shown.pose.required_tip_deg ?? 0, center: center2, radius,
+      askedDeg: shown.pose.required_tip_deg ?? 0, center, radius,
     }, inks, this.ui.value.ring);
-    this.labels.put(this.#front, new Vector3((box.min.x + box.max.x) / 2, center2.y - 1.45 * radius, 0));
+    this.labels.put(this.#front, new Vector3((box.min.x + box.max.x) / 2, center.y - 1.45 * radius, 0));
     const heading = edge && new Vector3(...edge.heading).transformDirection(this.figure.pose.matrixWorld);
-    if (!heading || typeof shown.figures.tip_deg !== 'number' || !this.ui.value.ring) return this.labels.remove(this.#weakLabel);
+    if (!heading || typeof shown.figures.tip_deg !== 'number' || !this.ui.value.ring)
+      return this.labels.remove(this.#weakLabel);
     this.#weakLabel.textContent = `${degrees(shown.figures.tip_deg)}°`;
     this.#weakLabel.title = `weakest ${wayOf(edge.heading, shown.pose.up)}`;
-    this.labels.put(this.#weakLabel, new Vector3(center2.x, center2.y, 0).addScaledVector(heading, (1.16 + 0.3 * Math.max(0, shown.figures.tip_deg) / 45) * radius));
+    const away = (1.16 + (0.3 * Math.max(0, shown.figures.tip_deg)) / 45) * radius; // beyond the ring's bar
+    this.labels.put(this.#weakLabel, new Vector3(center.x, center.y, 0).addScaledVector(heading, away));
   }
 
   /** Plays the way it falls over its weak edge, of the pose that is shown. */
@@ -221,4 +224,9 @@ export class View {
   stopFall(): void {
     this.#player.stop();
   }
+}
+
+function middleOf(points: readonly OnPlate[]): OnPlate {
+  const sum = points.reduce((all, p) => ({x: all.x + p.x, y: all.y + p.y}), {x: 0, y: 0});
+  return {x: sum.x / points.length, y: sum.y / points.length};
 }
