@@ -145,6 +145,12 @@ TEST(MeshFormats, WrittenStlCarriesUnitNormalsAlongTheWinding) {
   }
 }
 
+TEST(MeshFormats, AnStlReadAndWrittenAgainIsTheSameToTheByte) {
+  const auto written = encode_mesh(sphere({0.1, 0.2, 0.3}, 10.0 / 3, 2), MeshFormat::stl).value();
+  const MeshFile back = read_mesh(written, "a.stl").value();
+  EXPECT_EQ(encode_mesh(back.objects.front().mesh, MeshFormat::stl).value(), written);
+}
+
 TEST(MeshFormats, TheSameMeshGivesTheSameBytes) {
   for (const MeshFormat format : {MeshFormat::three_mf, MeshFormat::stl, MeshFormat::obj, MeshFormat::ply})
     EXPECT_EQ(encode_mesh(shape(), format).value(), encode_mesh(shape(), format).value());

@@ -1,5 +1,7 @@
 #include "aplomb/io/write_mesh.h"
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cassert>
 #include <charconv>
@@ -51,10 +53,15 @@ std::byte* put(std::byte* at, Vec3 v) {
   return put(at, static_cast<float>(v.z));
 }
 
+/// As a reader will find it, without negative zeros.
+Vec3 as_written(Vec3 v) {
+  const auto rounded = [](double x) { return double{static_cast<float>(x)}; };
+  return Vec3{rounded(v.x), rounded(v.y), rounded(v.z)} + Vec3{};
+}
+
 /// Zero for a triangle without area.
-Vec3 facet_normal(const TriangleMesh& mesh, const Triangle& t) {
-  const Vec3 a = mesh.vertices[t[0]];
-  const Vec3 normal = cross(mesh.vertices[t[1]] - a, mesh.vertices[t[2]] - a);
+Vec3 facet_normal(const std::array<Vec3, 3>& corners) {
+  const Vec3 normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
   const double length = norm(normal);
   return length > 0 && std::isfinite(length) ? normal / length : Vec3{};
 }
@@ -86,8 +93,10 @@ Result<Bytes> encode_stl(const TriangleMesh& mesh, const Job& job) {
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     if (!proceed(job, i, mesh.triangles.size())) return cancelled();
     const Triangle& t = mesh.triangles[i];
-    at = put(at, facet_normal(mesh, t));
-    for (const std::uint32_t corner : t) at = put(at, mesh.vertices[corner] + Vec3{});
+    const std::array corners{as_written(mesh.vertices[t[0]]), as_written(mesh.vertices[t[1]]),
+                             as_written(mesh.vertices[t[2]])};
+    at = put(at, facet_normal(corners));  // of what is written: the same after it is read and written again
+    for (const Vec3& corner : corners) at = put(at, corner);
     at += 2;
   }
   mark_as_binary(stl);
