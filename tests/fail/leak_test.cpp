@@ -8,7 +8,7 @@ namespace {
 
 void leave_behind() {
   void* volatile lost = std::malloc(1000);
-  lost = nullptr;
+  if (lost) lost = nullptr;
   std::exit(0);
 }
 
