@@ -104,7 +104,8 @@ void make_wrong(Spoil spoil, TriangleMesh& written, json& claims) {
   if (spoil == Spoil::hole) written.triangles.pop_back();
   const bool has_void = first < written.triangles.size();  // else there is nothing of it to spoil
   if (spoil == Spoil::winding && has_void) std::swap(written.triangles[first][0], written.triangles[first][1]);
-  if (spoil == Spoil::wall && has_void) {  // a corner of the void goes nearer to the outside, the void turning no inside out
+  if (spoil == Spoil::wall &&
+      has_void) {  // a corner of the void goes nearer to the outside, the void turning no inside out
     Vec3& moved = written.vertices[written.triangles[first][0]];
     Vec3 nearest{};
     double least = 1e300;
