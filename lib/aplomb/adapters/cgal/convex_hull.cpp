@@ -4,41 +4,13 @@
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/convex_hull_3.h>
 
-#include <algorithm>
 #include <exception>
-#include <numeric>
 #include <string>
-#include <tuple>
 #include <vector>
 
+#include "aplomb/adapters/cgal/mesh_order.h"
+
 namespace aplomb::adapters {
-namespace {
-
-/// CGAL's order follows the addresses of its nodes, which nobody chose: vertices by coordinates and triangles by their
-/// vertices, each from its smallest one on, are the same in every run.
-TriangleMesh in_its_own_order(const TriangleMesh& hull) {
-  std::vector<std::uint32_t> order(hull.vertices.size()), rank(hull.vertices.size());
-  std::iota(order.begin(), order.end(), 0u);
-  const auto place = [&](std::uint32_t i) {
-    return std::tie(hull.vertices[i].x, hull.vertices[i].y, hull.vertices[i].z);
-  };
-  std::ranges::sort(order, {}, place);
-  TriangleMesh mesh;
-  for (const std::uint32_t i : order) {
-    rank[i] = static_cast<std::uint32_t>(mesh.vertices.size());
-    mesh.vertices.push_back(hull.vertices[i]);
-  }
-  for (Triangle t : hull.triangles) {
-    for (std::uint32_t& corner : t) corner = rank[corner];
-    std::ranges::rotate(t, std::ranges::min_element(t));
-    mesh.triangles.push_back(t);
-  }
-  std::ranges::sort(mesh.triangles);
-  return mesh;
-}
-
-}  // namespace
-
 Result<TriangleMesh> convex_hull(std::span<const Vec3> points_mm) {
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
   using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;

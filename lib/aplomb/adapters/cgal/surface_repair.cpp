@@ -1,71 +1,33 @@
 #include "aplomb/adapters/cgal/surface_repair.h"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/border.h>
 #include <CGAL/Polygon_mesh_processing/corefinement.h>
 #include <CGAL/Polygon_mesh_processing/manifoldness.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
-#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polygon_mesh_processing/repair_self_intersections.h>
 #include <CGAL/Polygon_mesh_processing/stitch_borders.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
-#include <CGAL/Random.h>
-#include <CGAL/Surface_mesh.h>
 
 #include <array>
+
+#include "aplomb/adapters/cgal/mesh_order.h"
+#include "aplomb/adapters/cgal/surface_mesh.h"
 
 namespace aplomb::adapters {
 namespace {
 
 namespace PMP = CGAL::Polygon_mesh_processing;
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using SurfaceMesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
-/// CGAL writes to stderr before it throws; its generator is a global.
-void make_quiet_and_deterministic() {
-  const auto ignore = [](const char*, const char*, const char*, int, const char*) {};
-  CGAL::set_warning_handler(ignore);
-  CGAL::set_error_handler(ignore);
-  CGAL::set_error_behaviour(CGAL::THROW_EXCEPTION);
-  CGAL::get_default_random() = CGAL::Random(0);
-}
-
-SurfaceMesh surface_of(const TriangleMesh& mesh) {
-  std::vector<Kernel::Point_3> points;
-  points.reserve(mesh.vertices.size());
-  for (const Vec3& v : mesh.vertices) points.emplace_back(v.x, v.y, v.z);
-  std::vector<std::array<std::size_t, 3>> polygons;
-  polygons.reserve(mesh.triangles.size());
-  for (const Triangle& t : mesh.triangles) polygons.push_back({t[0], t[1], t[2]});
-  PMP::orient_polygon_soup(points, polygons);
-  SurfaceMesh surface;
-  PMP::polygon_soup_to_polygon_mesh(points, polygons, surface);
-  return surface;
-}
-
-TriangleMesh triangles_of(const SurfaceMesh& surface) {
-  TriangleMesh mesh;
-  std::vector<std::uint32_t> numbers(surface.number_of_vertices() + surface.number_of_removed_vertices());
-  for (const auto v : surface.vertices()) {
-    numbers[v.idx()] = static_cast<std::uint32_t>(mesh.vertices.size());
-    const Kernel::Point_3& p = surface.point(v);
-    mesh.vertices.push_back({p.x(), p.y(), p.z()});
-  }
-  for (const auto f : surface.faces()) {
-    Triangle t{};
-    std::size_t corner = 0;
-    for (const auto v : CGAL::vertices_around_face(surface.halfedge(f), surface)) t[corner++ % 3] = numbers[v.idx()];
-    mesh.triangles.push_back(t);
-  }
-  return mesh;
+SurfaceMesh oriented_surface_of(const TriangleMesh& mesh) {
+  return surface_of(mesh, [](auto& points, auto& polygons) { PMP::orient_polygon_soup(points, polygons); });
 }
 
 }  // namespace
 
 ClosedSurface closed_surface(const TriangleMesh& soup) {
   make_quiet_and_deterministic();
-  SurfaceMesh surface = surface_of(soup);
+  SurfaceMesh surface = oriented_surface_of(soup);
   PMP::stitch_borders(surface);
   PMP::duplicate_non_manifold_vertices(surface);
   ClosedSurface closed;
@@ -76,7 +38,7 @@ ClosedSurface closed_surface(const TriangleMesh& soup) {
     Box3 box;
     for (const auto h : CGAL::halfedges_around_face(rim, surface)) {
       ++hole.edges;
-      const Kernel::Point_3& p = surface.point(CGAL::target(h, surface));
+      const SurfaceKernel::Point_3& p = surface.point(CGAL::target(h, surface));
       box.add({p.x(), p.y(), p.z()});
     }
     hole.diameter_mm = box.diagonal();
@@ -95,19 +57,22 @@ ClosedSurface closed_surface(const TriangleMesh& soup) {
 
 std::optional<TriangleMesh> united(const std::vector<TriangleMesh>& bodies) {
   make_quiet_and_deterministic();
-  SurfaceMesh all = surface_of(bodies.at(0));
+  std::array<SurfaceMesh, 2> operands;  // CGAL asks which has the lower address
+  auto& [all, next] = operands;
+  all = oriented_surface_of(bodies.at(0));
   for (std::size_t i = 1; i < bodies.size(); ++i) {
-    SurfaceMesh next = surface_of(bodies[i]), result;
+    next = oriented_surface_of(bodies[i]);
+    SurfaceMesh result;
     if (!PMP::corefine_and_compute_union(all, next, result, CGAL::parameters::throw_on_self_intersection(true)))
       return std::nullopt;
-    all = std::move(result);
+    all = surface_of(in_its_own_order(triangles_of(result)));
   }
   return triangles_of(all);
 }
 
 std::optional<TriangleMesh> without_self_intersections(const TriangleMesh& mesh) {
   make_quiet_and_deterministic();
-  SurfaceMesh surface = surface_of(mesh);
+  SurfaceMesh surface = oriented_surface_of(mesh);
   PMP::experimental::remove_self_intersections(surface, CGAL::parameters::preserve_genus(false));
   if (!CGAL::is_closed(surface)) return std::nullopt;
   return triangles_of(surface);
