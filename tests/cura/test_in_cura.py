@@ -70,7 +70,7 @@ class InCura(unittest.TestCase):
         profile, ballast = cls.folder / "cura.json", cls.folder / "trex.3mf"
         profile.write_text(json.dumps(SPARSE))
         subprocess.run([CLI, "stand", MODELS[0], "--profile", profile, "--tip", "8deg", "-o", ballast, "-q"], check=True)
-        cls.seen = run_cura.run(package, MODELS, ballast, cls.folder, 900)
+        cls.seen = run_cura.run(package, MODELS, ballast, cls.folder, 2000)
         cls.out = cls.folder / "out"
 
     @classmethod

@@ -1,3 +1,4 @@
+import contextlib
 import json
 import os
 import pathlib
@@ -19,7 +20,7 @@ OUT = pathlib.Path(os.environ["APLOMB_DRIVER_OUT"])
 MODEL = os.environ["APLOMB_DRIVER_MODEL"]
 SECOND_MODEL = os.environ["APLOMB_DRIVER_SECOND_MODEL"]
 BALLAST = os.environ["APLOMB_DRIVER_BALLAST"]
-PATIENCE_S = 300
+PATIENCE_S = 900  # other tests run beside
 PICTURED_LAYER = 360
 DONE, FAILED = 3, 4  # of UM.Backend.Backend.BackendState
 SETTINGS = "Settings\u2026"
@@ -192,12 +193,20 @@ class Driver(Extension):
         backend.backendStateChange.connect(self.note_state)  # held weakly: no lambda
         self._slicing = 0
         backend.forceSlice()
-        yield lambda: self._slicing in (DONE, FAILED)
+        yield lambda: self.hurry() or self._slicing in (DONE, FAILED)
         yield self.after(1)
         (OUT / (name + ".gcode")).write_text("".join(getattr(scene, "gcode_dict")[0]))
         self._seen["sliced_" + name] = self._slicing == DONE
         if "APLOMB_CURA_PICTURES" in os.environ:
             yield from self.preview(name)
+
+    def hurry(self):
+        """CuraEngine makes way for all else (nice 10), so that beside other tests it takes ten times as long: where one may, it gets its turn again."""
+        for stat in pathlib.Path("/proc").glob("[0-9]*/stat"):
+            with contextlib.suppress(OSError):  # it has ended, or one may not
+                pid, _, rest = stat.read_text().partition(" (CuraEngine) ")
+                if rest and int(rest.split()[1]) == os.getpid():
+                    os.setpriority(os.PRIO_PROCESS, int(pid), 0)
 
     def preview(self, name):
         """A picture of a layer from above, in the middle of the void."""
