@@ -37,7 +37,7 @@ export async function startStudio(...args) {
 export function launchBrowser() {
   return chromium.launch({
     executablePath: process.env.APLOMB_CHROMIUM ?? '/usr/bin/chromium',
-    args: ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist'],
+    args: ['--no-sandbox', '--enable-unsafe-swiftshader'], // as a machine without a graphics card draws
   });
 }
 

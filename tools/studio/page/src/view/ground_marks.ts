@@ -3,6 +3,7 @@ import {BufferGeometry, Color, DoubleSide, Float32BufferAttribute, Group, Mesh, 
 import {type Balance, type OnPlate, inset, tipTowardsDeg} from './balance';
 import type {Inks} from './inks';
 import {cleared, closed, line} from './lines';
+import {shared} from './materials';
 
 const directions = 144;
 const mostShownDeg = 45;
@@ -57,7 +58,7 @@ export class GroundMarks {
     });
     const geometry = new BufferGeometry().setAttribute('position', new Float32BufferAttribute(points, 3))
       .setAttribute('color', new Float32BufferAttribute(colors, 3));
-    const material = new MeshBasicMaterial({vertexColors: true, side: DoubleSide, transparent: true, opacity: 0.55});
+    const material = shared('bars', [], () => new MeshBasicMaterial({vertexColors: true, side: DoubleSide, transparent: true, opacity: 0.55}));
     const bars = new Mesh(geometry, material);
     bars.renderOrder = 4;
     this.group.add(bars, line(circle(radius), {color: inks.ink, pixels: 1, opacity: 0.6}),
@@ -74,7 +75,8 @@ function fan(polygon: readonly OnPlate[], z: number, color: Color, opacity: numb
   const points = polygon.flatMap((p) => [p.x, p.y, z]);
   const geometry = new BufferGeometry().setAttribute('position', new Float32BufferAttribute(points, 3));
   geometry.setIndex(Array.from({length: polygon.length - 2}, (_, i) => [0, i + 1, i + 2]).flat());
-  const mesh = new Mesh(geometry, new MeshBasicMaterial({color, transparent: true, opacity, side: DoubleSide, depthWrite: false}));
+  const material = shared('fan', [color.getHex(), opacity], () => new MeshBasicMaterial({color, transparent: true, opacity, side: DoubleSide, depthWrite: false}));
+  const mesh = new Mesh(geometry, material);
   mesh.renderOrder = 3;
   return mesh;
 }

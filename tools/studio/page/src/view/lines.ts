@@ -1,10 +1,12 @@
-import {type Color, type ColorRepresentation, Group, type Object3D, Mesh} from 'three';
+import {type Color, type Group, LineSegments, Mesh, type Object3D} from 'three';
 import {Line2} from 'three/addons/lines/Line2.js';
 import {LineGeometry} from 'three/addons/lines/LineGeometry.js';
 import {LineMaterial} from 'three/addons/lines/LineMaterial.js';
 
+import {shared} from './materials';
+
 export interface Stroke {
-  readonly color: Color | ColorRepresentation;
+  readonly color: Color;
   readonly pixels: number;
   readonly dash_mm?: number;
   readonly seenThrough?: boolean; // drawn in front of everything
@@ -14,10 +16,10 @@ export interface Stroke {
 /** A line of a width in pixels through points x, y, z, x, y, z... */
 export function line(points: readonly number[], stroke: Stroke): Line2 {
   const {color, pixels, dash_mm = 0, seenThrough = false, opacity = 1} = stroke;
-  const material = new LineMaterial({
-    color: color as ColorRepresentation, linewidth: pixels, dashed: dash_mm > 0, dashSize: dash_mm || 1,
+  const material = shared('line', [color.getHex(), pixels, dash_mm, seenThrough, opacity], () => new LineMaterial({
+    color: color.getHex(), linewidth: pixels, dashed: dash_mm > 0, dashSize: dash_mm || 1,
     gapSize: 0.7 * dash_mm || 1, depthTest: !seenThrough, transparent: true, opacity,
-  });
+  }));
   const drawn = new Line2(new LineGeometry().setPositions(points as number[]), material);
   if (dash_mm > 0) drawn.computeLineDistances();
   drawn.renderOrder = seenThrough ? 20 : 5;
@@ -28,7 +30,7 @@ export function closed(points: readonly number[]): number[] {
   return [...points, ...points.slice(0, 3)];
 }
 
-/** Frees what a group has drawn, and empties it. */
+/** Frees what a group has drawn, but for its materials, which are shared, and empties it. */
 export function cleared(group: Group): void {
   for (const child of [...group.children]) {
     group.remove(child);
@@ -38,8 +40,6 @@ export function cleared(group: Group): void {
 
 function free(object: Object3D): void {
   object.traverse((part) => {
-    if (!(part instanceof Mesh)) return;
-    part.geometry.dispose();
-    for (const material of Array.isArray(part.material) ? part.material : [part.material]) material.dispose();
+    if (part instanceof Mesh || part instanceof LineSegments) part.geometry.dispose();
   });
 }

@@ -2,29 +2,27 @@ import {CanvasTexture, Group, Sprite, SpriteMaterial, SRGBColorSpace, type Vecto
 
 import type {Inks} from './inks';
 import {cleared, line} from './lines';
+import {shared} from './materials';
 
 /** A centre of mass: the quartered disc of drawings, its plumb line and where that meets the plate. */
 export class MassMark {
   readonly group = new Group();
-  #sprite: Sprite | null = null;
 
   /** `before`: drawn hollow and thin, as what was. Points in mm of the plate. */
   show(at: Vector3 | null, inks: Inks, size: number, before: boolean, plumbTo = 0): void {
     cleared(this.group);
-    this.#sprite?.material.map?.dispose();
-    this.#sprite?.material.dispose();
-    this.#sprite = null;
     if (!at) return;
     const color = before ? inks.mild : inks.ink, pixels = before ? 1.5 : 2.5, arm = size * (before ? 0.02 : 0.03);
     const stroke = {color, pixels, seenThrough: true, opacity: before ? 0.9 : 1};
     this.group.add(line([at.x, at.y, at.z, at.x, at.y, plumbTo], {...stroke, dash_mm: before ? size / 60 : 0}));
     this.group.add(line([at.x - arm, at.y, plumbTo, at.x + arm, at.y, plumbTo], stroke),
                    line([at.x, at.y - arm, plumbTo, at.x, at.y + arm, plumbTo], stroke));
-    this.#sprite = new Sprite(new SpriteMaterial({map: disc(inks, before), depthTest: false, sizeAttenuation: false}));
-    this.#sprite.position.copy(at);
-    this.#sprite.scale.setScalar(before ? 0.016 : 0.021);
-    this.#sprite.renderOrder = 21;
-    this.group.add(this.#sprite);
+    const sprite = new Sprite(shared('disc', [inks.ink.getHex(), inks.paper.getHex(), inks.mild.getHex(), before],
+                                     () => new SpriteMaterial({map: disc(inks, before), depthTest: false, sizeAttenuation: false})));
+    sprite.position.copy(at);
+    sprite.scale.setScalar(before ? 0.016 : 0.021);
+    sprite.renderOrder = 21;
+    this.group.add(sprite);
   }
 }
 

@@ -2,6 +2,7 @@ import {type Box3, Group, LineBasicMaterial, LineSegments, BufferGeometry, Float
 
 import type {Inks} from './inks';
 import {cleared} from './lines';
+import {shared} from './materials';
 
 /** The build plate: a sheet with a line each 10 mm, as large as the figure needs. */
 export class Plate {
@@ -17,11 +18,11 @@ export class Plate {
     this.#half = step * Math.ceil((0.95 * largest) / step);
     const x = step * Math.round((box.min.x + box.max.x) / 2 / step), y = step * Math.round((box.min.y + box.max.y) / 2 / step);
     this.group.position.set(x, y, -0.0005 * largest);
-    const sheet = new Mesh(new PlaneGeometry(2 * this.#half, 2 * this.#half), new MeshBasicMaterial({
+    const sheet = new Mesh(new PlaneGeometry(2 * this.#half, 2 * this.#half), shared('plate', [inks.plate.getHex()], () => new MeshBasicMaterial({
       color: inks.plate, polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 2,
-    }));
+    })));
     sheet.renderOrder = -2;
-    const lines = new LineSegments(this.#lines(step), new LineBasicMaterial({color: inks.grid}));
+    const lines = new LineSegments(this.#lines(step), shared('grid', [inks.grid.getHex()], () => new LineBasicMaterial({color: inks.grid})));
     lines.renderOrder = -1;
     this.group.add(sheet, lines);
   }

@@ -28,6 +28,7 @@ export class Stage {
     this.renderer = new WebGLRenderer({canvas, antialias: !drawsInSoftware(), stencil: true});
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
     this.renderer.localClippingEnabled = true;
+    this.renderer.debug.checkShaderErrors = import.meta.env.DEV; // to ask for them is to wait for the compiler
     this.camera.up.set(0, 0, 1);
     this.camera.add(this.#sun);
     this.#sun.position.set(-0.6, 0.8, 0.7);
