@@ -169,6 +169,17 @@ class Endings(unittest.TestCase):
         self.studio.process.wait()
         self.assertTrue(soon(lambda: not is_alive(run), 5))
 
+    def test_what_a_killed_server_left_goes_when_the_next_begins_and_what_another_holds_stays(self):
+        (held,) = self.folder.iterdir()
+        killed = studio.Studio(environment={"TMPDIR": str(self.folder)})
+        (left,) = set(self.folder.iterdir()) - {held}
+        killed.process.kill()
+        killed.process.communicate()
+        self.assertTrue(left.exists())
+        with studio.Studio(environment={"TMPDIR": str(self.folder)}):
+            self.assertFalse(left.exists())
+            self.assertTrue(held.exists())
+
     def test_the_command_line_becomes_the_studio(self):
         with subprocess.Popen([studio.CLI, "studio", "--no-browser", "--port", "0"], stdout=subprocess.PIPE, text=True) as process:
             self.assertRegex(process.stdout.readline(), r"http://127\.0\.0\.1:\d+/#[0-9a-f]{64}")

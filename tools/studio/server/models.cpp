@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
@@ -31,18 +29,6 @@ bool is_utf8(const std::string& text) {
 }
 
 }  // namespace
-
-PrivateFolder::PrivateFolder() {
-  std::string name = (fs::temp_directory_path() / "aplomb-studio-XXXXXX").string();
-  if (!mkdtemp(name.data()))  // 0700
-    throw fs::filesystem_error("no folder for models", name, std::error_code(errno, std::generic_category()));
-  path_ = name;
-}
-
-PrivateFolder::~PrivateFolder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
-}
 
 std::string safe_name(std::string_view name) {
   if (const auto slash = name.find_last_of("/\\"); slash != std::string_view::npos) name.remove_prefix(slash + 1);

@@ -11,19 +11,6 @@
 
 namespace aplomb::studio {
 
-/// A folder that only this user sees, removed with all it holds at the end.
-class PrivateFolder {
- public:
-  PrivateFolder();  ///< Throws std::filesystem::filesystem_error where there is no place for it.
-  ~PrivateFolder();
-  PrivateFolder(const PrivateFolder&) = delete;
-  PrivateFolder& operator=(const PrivateFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
 /// The last part of a name that came with an upload, without what is no text, of at most 100 bytes; its extension
 /// stays. Never empty, "-" or a way to another folder.
 std::string safe_name(std::string_view name);

@@ -90,7 +90,8 @@ void Routes::add_to(httplib::Server& server) {
     return status != 0;
   };
   server.set_pre_routing_handler([refused](const Request& request, Response& response) {
-    // The library would compress what a browser takes compressed: 1.7 s for the page's script, which crosses no network.
+    // The library would compress what a browser takes compressed: 1.7 s for the page's script, which crosses no
+    // network.
     const_cast<Request&>(request).headers.erase("Accept-Encoding");
     return refused(request, response) ? httplib::Server::HandlerResponse::Handled
                                       : httplib::Server::HandlerResponse::Unhandled;

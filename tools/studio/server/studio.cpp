@@ -15,7 +15,7 @@
 
 #include "aplomb/ending.h"
 #include "server/guard.h"
-#include "server/models.h"
+#include "server/private_folder.h"
 #include "server/routes.h"
 
 namespace aplomb::studio {

@@ -22,7 +22,7 @@ TriangleMesh in_its_own_order(const TriangleMesh& mesh) {
   }
   for (Triangle t : mesh.triangles) {
     for (std::uint32_t& corner : t) corner = rank[corner];
-    std::ranges::rotate(t, std::ranges::min_element(t));
+    std::rotate(t.begin(), std::ranges::min_element(t), t.end());
     ordered.triangles.push_back(t);
   }
   std::ranges::sort(ordered.triangles);
