@@ -1,4 +1,3 @@
-import contextlib
 import json
 import os
 import pathlib
@@ -15,6 +14,8 @@ from UM.PluginRegistry import PluginRegistry
 from UM.Scene.Iterator.DepthFirstIterator import DepthFirstIterator
 from UM.Scene.SceneNode import SceneNode
 from UM.Scene.Selection import Selection
+
+from .engine import hurry
 
 OUT = pathlib.Path(os.environ["APLOMB_DRIVER_OUT"])
 MODEL = os.environ["APLOMB_DRIVER_MODEL"]
@@ -193,20 +194,12 @@ class Driver(Extension):
         backend.backendStateChange.connect(self.note_state)  # held weakly: no lambda
         self._slicing = 0
         backend.forceSlice()
-        yield lambda: self.hurry() or self._slicing in (DONE, FAILED)
+        yield lambda: hurry() or self._slicing in (DONE, FAILED)
         yield self.after(1)
         (OUT / (name + ".gcode")).write_text("".join(getattr(scene, "gcode_dict")[0]))
         self._seen["sliced_" + name] = self._slicing == DONE
         if "APLOMB_CURA_PICTURES" in os.environ:
             yield from self.preview(name)
-
-    def hurry(self):
-        """CuraEngine makes way for all else (nice 10), so that beside other tests it takes ten times as long: where one may, it gets its turn again."""
-        for stat in pathlib.Path("/proc").glob("[0-9]*/stat"):
-            with contextlib.suppress(OSError):  # it has ended, or one may not
-                pid, _, rest = stat.read_text().partition(" (CuraEngine) ")
-                if rest and int(rest.split()[1]) == os.getpid():
-                    os.setpriority(os.PRIO_PROCESS, int(pid), 0)
 
     def preview(self, name):
         """A picture of a layer from above, in the middle of the void."""

@@ -4,8 +4,8 @@
 
 namespace aplomb::studio {
 
-/// A folder that only this user sees, removed with all it holds at the end. One that a killed server has left is removed
-/// by the next.
+/// A folder that only this user sees, removed with all it holds at the end. One that a killed server has left is
+/// removed by the next.
 class PrivateFolder {
  public:
   PrivateFolder();  ///< Throws std::filesystem::filesystem_error where there is no place for it.
