@@ -51,7 +51,8 @@ export class LayOnFace implements Tool {
 
   #show(hit: Hit | null): void {
     const {view} = this.bench;
-    if (this.#mark) view.figure.pose.remove(this.#mark);
+    this.#mark?.removeFromParent();
+    this.#mark?.geometry.dispose();
     this.#mark = null;
     if (hit) {
       const size = 0.07 * heightOf(this.bench.results), points: number[] = [], at = new Vector3();

@@ -15,13 +15,14 @@ export interface Stroke {
 
 /** A line of a width in pixels through points x, y, z, x, y, z... */
 export function line(points: readonly number[], stroke: Stroke): Line2 {
-  const {color, pixels, dash_mm = 0, seenThrough = false, opacity = 1} = stroke;
-  const material = shared('line', [color.getHex(), pixels, dash_mm, seenThrough, opacity], () => new LineMaterial({
-    color: color.getHex(), linewidth: pixels, dashed: dash_mm > 0, dashSize: dash_mm || 1,
-    gapSize: 0.7 * dash_mm || 1, depthTest: !seenThrough, transparent: true, opacity,
+  const {color, pixels, seenThrough = false, opacity = 1} = stroke;
+  const dash = Number((stroke.dash_mm ?? 0).toPrecision(2)); // rounded, lest each size of a figure has materials of its own
+  const material = shared('line', [color.getHex(), pixels, dash, seenThrough, opacity], () => new LineMaterial({
+    color: color.getHex(), linewidth: pixels, dashed: dash > 0, dashSize: dash || 1,
+    gapSize: 0.7 * dash || 1, depthTest: !seenThrough, transparent: true, opacity,
   }));
   const drawn = new Line2(new LineGeometry().setPositions(points as number[]), material);
-  if (dash_mm > 0) drawn.computeLineDistances();
+  if (dash > 0) drawn.computeLineDistances();
   drawn.renderOrder = seenThrough ? 20 : 5;
   return drawn;
 }
