@@ -79,7 +79,7 @@ class Drainer {
       if (const auto carved = carve_again(part.part(0.6, 1)); !carved) return tl::unexpected(carved.error());
     }
     if (made_.shell && made_.shell->voids == 0)
-      made_.hints.emplace_back("no void is left that escape holes could be cut to; it is printed solid");
+      if (const auto left = leave_solid(job.part(1, 1)); !left) return tl::unexpected(left.error());
     return std::move(made_);
   }
 
@@ -121,6 +121,15 @@ class Drainer {
     made_.carving.body = moments(shell.mesh);
     made_.carving.reaches = is_reached(made_.carving.body);
     return left_out > 0 ? Next::choose : Next::nothing;
+  }
+
+  /// No void is left, so that nothing is taken by the holes of those that were.
+  Result<void> leave_solid(const Job& job) {
+    taken_ = {};
+    made_.carving.body = moments(made_.shell->mesh);
+    made_.carving.reaches = is_reached(made_.carving.body);
+    made_.hints.emplace_back("no void is left that escape holes could be cut to; it is printed solid");
+    return certify(made_.carving.body, job);
   }
 
   bool aims() const { return options_.aim != CarveAim::stable; }

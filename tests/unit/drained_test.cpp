@@ -73,6 +73,11 @@ TEST(DrainedVoid, StaysSolidWhereNoHoleMayBe) {
   EXPECT_EQ(made->shell->voids, 0U);
   EXPECT_TRUE(made->holes.empty());
   EXPECT_FALSE(made->hints.empty());
+  const double t = largest_t(made->joint.problem, input.moments);  // the solid's, and not those of the void that went
+  EXPECT_EQ(made->carving.body.volume_mm3, input.moments.volume_mm3);
+  EXPECT_NEAR(made->carving.t, t, 1e-9);
+  EXPECT_LE(t, made->carving.bound_t + 1e-6);
+  EXPECT_FALSE(made->carving.reaches);
 }
 
 TEST(DrainedVoid, IsCancelledAtAnyReport) {
