@@ -72,6 +72,12 @@ void load(Work& work) {
   }
 }
 
+/// GLPK's rules against cycling are not enough where columns are nearly the same: it went on for ever. A few iterations a row and
+/// column is what the method takes otherwise.
+int most_iterations(const LinearProgram& program) {
+  return static_cast<int>(1000 + 50 * (program.rows.size() + program.variables.size()));
+}
+
 bool solved(const Work& work, double tolerance) {
   glp_smcp parameters;
   glp_init_smcp(&parameters);
@@ -79,6 +85,7 @@ bool solved(const Work& work, double tolerance) {
   parameters.meth = work.method;
   parameters.tol_bnd = tolerance;
   parameters.tol_dj = tolerance;
+  parameters.it_lim = most_iterations(work.program);
   return glp_simplex(work.problem, &parameters) == 0 && glp_get_status(work.problem) == GLP_OPT;
 }
 
