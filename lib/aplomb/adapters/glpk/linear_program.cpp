@@ -72,8 +72,8 @@ void load(Work& work) {
   }
 }
 
-/// GLPK's rules against cycling are not enough where columns are nearly the same: it went on for ever. A few iterations a row and
-/// column is what the method takes otherwise.
+/// GLPK's rules against cycling are not enough where columns are nearly the same: it went on for ever. A few iterations
+/// a row and column is what the method takes otherwise.
 int most_iterations(const LinearProgram& program) {
   return static_cast<int>(1000 + 50 * (program.rows.size() + program.variables.size()));
 }
