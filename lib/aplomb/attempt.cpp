@@ -179,7 +179,8 @@ Result<ReshapedAttempt> attempt_reshaping(const Input& input, const StandOptions
     const bool at_limit = made.figures.outcome == "limit" || made.figures.outcome == "stuck";
     if (reshaping->bent) ++bends;
     if (short_t <= 0 || at_limit || bends == most_bends) return made;
-    beyond_t += bent_beyond_ratio * short_t + std::tan(bent_beyond_rad);
+    const double told_t = std::isfinite(short_t) ? short_t : 0;  // a thread that hangs slack is short of no angle
+    beyond_t += bent_beyond_ratio * told_t + std::tan(bent_beyond_rad);
   }
 }
 
