@@ -64,7 +64,7 @@ RowKind loaded_kind(const Input& input, const StandOptions& options) {
   return input.inserts.empty() ? RowKind::nominal : kind_of(options);
 }
 
-/// How far short of its angle a reshaped solid ends.
+/// How far short of its angle a reshaped solid ends; infinitely where a thread hangs slack.
 double shortfall_t(const ReshapedAttempt& reshaped, const JointProblem& joint) {
   Moments body = reshaped.input.moments;
   if (reshaped.attempt) body = reshaped.attempt->carving.body;
@@ -179,7 +179,7 @@ Result<ReshapedAttempt> attempt_reshaping(const Input& input, const StandOptions
     const bool at_limit = made.figures.outcome == "limit" || made.figures.outcome == "stuck";
     if (reshaping->bent) ++bends;
     if (short_t <= 0 || at_limit || bends == most_bends) return made;
-    const double told_t = std::isfinite(short_t) ? short_t : 0;  // a thread that hangs slack is short of no angle
+    const double told_t = std::isfinite(short_t) ? short_t : 0;
     beyond_t += bent_beyond_ratio * told_t + std::tan(bent_beyond_rad);
   }
 }

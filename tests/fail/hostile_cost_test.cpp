@@ -24,14 +24,12 @@ std::string repeated(std::string_view text, std::size_t count) {
 /// Reads in a process of its own; under sanitizers only that it ends is asked.
 void expect_cheap(const std::string& bytes, std::string_view name, const ReadOptions& options = {}) {
   const std::span view(reinterpret_cast<const std::byte*>(bytes.data()), bytes.size());
-  const auto read = [&] {
+  const Cost cost = cost_of([&] {
     const auto file = read_mesh(view, name, options);
     if (!file && file.error().message.find(';') == std::string::npos) abort();
-  };
-  Cost cost = cost_of(read);
+  });
   EXPECT_TRUE(cost.ended) << name;
   if (is_sanitized()) return;
-  if (cost.seconds >= 10) cost = cost_of(read);  // a second of CPU does less where other work shares its core
   EXPECT_LT(cost.seconds, 10) << name;
   EXPECT_LT(cost.peak_bytes + bytes.size(), options.memory_bytes + 32 * megabyte) << name << " " << bytes.size();
 }

@@ -46,11 +46,11 @@ TEST(Boolean, what_is_united_does_not_depend_on_where_memory_lies) {
 }
 
 TEST(Boolean, what_is_cut_does_not_depend_on_where_memory_lies) {
-  const TriangleMesh ball = test::sphere({}, 5, 3), box = test::box({-1, -1, -9}, {1, 1, 9});
-  expect_same_in_every_heap([&] { return adapters::difference(ball, box); });
-  expect_same_in_every_heap([&] { return adapters::intersection(ball, box); });
-  const TriangleMesh cube = test::box({-5, -5, -5}, {5, 5, 5});
-  expect_same_in_every_heap([&] { return adapters::difference(cube, box); });
+  const TriangleMesh rod = test::cylinder({}, 5, 10, 24), slot = test::box({-1, -1, -1}, {1, 1, 11});
+  expect_same_in_every_heap([&] { return adapters::difference(rod, slot); });
+  const TriangleMesh ball = test::sphere({}, 5, 3), dent = test::sphere({-3, 2, 1}, 3, 3);
+  expect_same_in_every_heap([&] { return adapters::difference(ball, dent); });
+  expect_same_in_every_heap([&] { return adapters::intersection(ball, dent); });
 }
 
 }  // namespace

@@ -49,8 +49,8 @@ void remove_left_behind(const fs::path& parent) {
 PrivateFolder::PrivateFolder() {
   const fs::path parent = fs::temp_directory_path();
   remove_left_behind(parent);
-  std::string name = (parent / (prefix + std::string("XXXXXX"))).string();
-  if (!mkdtemp(name.data()))  // 0700
+  std::string name = (parent / prefix).string() + "XXXXXX";  // as mkdtemp() wants it
+  if (!mkdtemp(name.data()))                                 // 0700
     throw fs::filesystem_error("no folder for models", name, std::error_code(errno, std::generic_category()));
   path_ = name;
   lock_ = held_file(path_);

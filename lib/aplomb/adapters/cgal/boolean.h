@@ -9,6 +9,7 @@
 namespace aplomb::adapters {
 
 /// What of `body` lies outside `tool`. Triangles of either that the other does not cross stay as they are, to the bit.
+/// Vertices and triangles come as in_its_own_order() has them.
 /// Nothing when CGAL cannot tell.
 ///
 /// \pre Both closed, manifold, wound outward, without self-intersection.

@@ -11,6 +11,7 @@
 #include "aplomb/adapters/cgal/mesh_order.h"
 
 namespace aplomb::adapters {
+
 Result<TriangleMesh> convex_hull(std::span<const Vec3> points_mm) {
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
   using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;

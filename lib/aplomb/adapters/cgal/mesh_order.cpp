@@ -14,7 +14,7 @@ TriangleMesh in_its_own_order(const TriangleMesh& mesh) {
   const auto place = [&](std::uint32_t i) {
     return std::tie(mesh.vertices[i].x, mesh.vertices[i].y, mesh.vertices[i].z);
   };
-  std::ranges::sort(order, {}, place);
+  std::ranges::stable_sort(order, {}, place);
   TriangleMesh ordered;
   for (const std::uint32_t i : order) {
     rank[i] = static_cast<std::uint32_t>(ordered.vertices.size());

@@ -32,7 +32,7 @@ struct LinearSolution {
 };
 
 /// Solves by GLPK's simplex method. Nothing when it is infeasible, unbounded or does not solve it,
-/// nor where an assertion of GLPK fails, as on columns that are nearly the same.
+/// nor where an assertion of GLPK fails or its method goes round, as on columns that are nearly the same.
 /// Meant for small programs: O(rows x variables) memory.
 std::optional<LinearSolution> solve(const LinearProgram& program);
 
