@@ -14,15 +14,19 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-/// How far half the wall would go, on a coarse grid: the bound of t.
-std::optional<double> t_with_half_wall(const Input& input, const JointProblem& joint, const StandOptions& options,
-                                       const Job& job) {
+/// How far half the wall would go, on a coarse grid: the bound of t; nothing where that cannot be told.
+Result<std::optional<double>> t_with_half_wall(const Input& input, const JointProblem& joint,
+                                               const StandOptions& options, const Job& job) {
+  using Bound = std::optional<double>;
+  const auto untold = [](const Error& error) {
+    return error.code == ErrorCode::cancelled ? Result<Bound>(cancelled()) : Result<Bound>(Bound());
+  };
   VolumeOptions coarse{options.wall_mm / 2, options.wall_mm / 4, 0, options.memory_bytes};
   const auto volume = voxelize(input.solid, coarse, job.part(0, 0.7));
-  if (!volume) return std::nullopt;
+  if (!volume) return untold(volume.error());
   const Moments loaded = input.moments + inserts_as_solid(input.inserts, options);
   const auto bound_t = carving_bound(*volume, loaded, joint.problem, 1e-4, job.part(0.7, 1));
-  return bound_t ? std::optional(*bound_t) : std::nullopt;
+  return bound_t ? Result<Bound>(*bound_t) : untold(bound_t.error());
 }
 
 std::string half_wall_text(double t, const JointProblem& joint) {
@@ -73,12 +77,14 @@ void note_loose_attachments(Report& report, const TriangleMesh& mesh) {
                         at.z, distance));
 }
 
-void add_advice(Report& report, const Input& input, const JointProblem& joint, const StandOptions& options,
-                const Job& job) {
-  if (const auto t = t_with_half_wall(input, joint, options, job))
+Result<void> add_advice(Report& report, const Input& input, const JointProblem& joint, const StandOptions& options,
+                        const Job& job) {
+  const auto t = t_with_half_wall(input, joint, options, job);
+  if (!t) return tl::unexpected(t.error());
+  if (*t)
     report.hints.push_back(
         fmt::format("with a wall of {:.3g} mm, or printed twice as high with the wall as it is, carving could {}",
-                    options.wall_mm / 2, half_wall_text(*t, joint)));
+                    options.wall_mm / 2, half_wall_text(**t, joint)));
   if (report.after && report.after->pedestal)
     report.hints.push_back(fmt::format("on a round pedestal {:.3g} mm across and {:.3g} mm thick it would stand",
                                        2 * report.after->pedestal->radius_mm, report.after->pedestal->thickness_mm));
@@ -88,6 +94,7 @@ void add_advice(Report& report, const Input& input, const JointProblem& joint, c
   if (options.deform == Deform::never) report.hints.push_back("bending the surface a little would help: --deform auto");
   else if (report.deformation && report.deformation->outcome == "limit")
     report.hints.push_back("a larger --deform-limit or --trim-base would allow more");
+  return {};
 }
 
 }  // namespace aplomb

@@ -10,9 +10,9 @@ namespace aplomb {
 
 /// Adds to the report what would make a solid stand that carving could not: half the wall, a pedestal, a wider base.
 ///
-/// \par Cost  a carving's bound on a coarse grid.
-void add_advice(Report& report, const Input& input, const JointProblem& joint, const StandOptions& options,
-                const Job& job);
+/// \return cancelled. \par Cost  a carving's bound on a coarse grid.
+Result<void> add_advice(Report& report, const Input& input, const JointProblem& joint, const StandOptions& options,
+                        const Job& job);
 
 /// Adds what ceilings that print left undone; `reaches`: whether it holds with them.
 void add_ceiling_hints(Report& report, bool reaches);

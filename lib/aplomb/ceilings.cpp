@@ -6,6 +6,7 @@
 
 #include "aplomb/carve/kept_parts.h"
 #include "aplomb/carve/ribs.h"
+#include "aplomb/core/pulse.h"
 #include "aplomb/mesh/detail/topology.h"
 #include "aplomb/printability/detail/places.h"
 #include "aplomb/printability/printed_solid.h"
@@ -125,8 +126,9 @@ class Shaper {
 
   const std::vector<KeptPart>& kept() const { return kept_; }
 
-  /// Keeps what helps against what was found. \return whether there was anything.
-  bool answer(const std::vector<Wrong>& wrong, const Attempt& attempt, int round, CeilingFigures& figures) {
+  /// Keeps what helps against what was found. \return whether there was anything, if the pulse has not stopped.
+  bool answer(const std::vector<Wrong>& wrong, const Attempt& attempt, int round, CeilingFigures& figures,
+              const Pulse& pulse) {
     const std::size_t before = kept_.size();
     std::vector<Box3> ceilings;
     for (const auto& [id, place] : wrong) {
@@ -134,7 +136,7 @@ class Shaper {
       if (id == "void.island") add_pillar(place, figures);
       if (id == "wall.void_void") add_fill(place, round, figures);
     }
-    if (!ceilings.empty() && span_mm_) add_ribs(ceilings, attempt, round, figures);
+    if (!ceilings.empty() && span_mm_) add_ribs(ceilings, attempt, round, figures, pulse);
     return kept_.size() > before;
   }
 
@@ -152,9 +154,11 @@ class Shaper {
     ++figures.fills;
   }
 
-  void add_ribs(const std::vector<Box3>& wrong, const Attempt& attempt, int round, CeilingFigures& figures) {
+  void add_ribs(const std::vector<Box3>& wrong, const Attempt& attempt, int round, CeilingFigures& figures,
+                const Pulse& pulse) {
     const Shell& shell = *attempt.shell;
-    const ColumnCosts costs(volume_, attempt.carving.kept);
+    const ColumnCosts costs(volume_, attempt.carving.kept, pulse);
+    if (pulse.stopped()) return;
     for (const FlatCeiling& ceiling :
          flat_ceilings(shell.mesh, shell.outer_triangles, slope_deg_ + beyond_slope_deg, voxel_mm_)) {
       if (std::ranges::none_of(wrong, [&](const Box3& box) { return meet(box, ceiling.box_mm); })) continue;
@@ -215,7 +219,11 @@ Result<Attempt> with_printable_ceilings(const Attempt& as_carved, const Rules& r
         !best || is_sure > best_is_sure || (is_sure == best_is_sure && figures.left < best->ceiling->left);
     if (is_better) best = now, best_is_sure = is_sure;
     in_vain = is_better ? 0 : in_vain + 1;
-    if (wrong->empty() || is_last || !shaper.answer(*wrong, now, round, figures)) break;
+    if (wrong->empty() || is_last) break;
+    const Pulse pulse(part, 0.4, "carve");
+    const bool helps = shaper.answer(*wrong, now, round, figures, pulse);
+    if (pulse.stopped()) return cancelled();
+    if (!helps) break;
     ++figures.rounds;
     auto again = carve_again(without(*as_carved.volume, shaper.kept()), part.part(0.4, 1));
     if (!again) return tl::unexpected(again.error());

@@ -2,22 +2,34 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "aplomb/balance/resting.h"
 #include "aplomb/mesh/bodies.h"
+#include "aplomb/mesh/detail/topology.h"
 #include "aplomb/report/text.h"
 
 namespace aplomb {
 namespace {
 
-std::string several_prints(const std::vector<TriangleMesh>& prints) {
-  std::string list;
-  for (std::size_t i = 0; i < prints.size() && i < 10; ++i) {
-    const Vec3 size = bounding_box(prints[i]).size();
-    list += fmt::format("{}{}: {:.4g} x {:.4g} x {:.4g} mm, {} triangles", i == 0 ? "" : "; ", i + 1, size.x, size.y,
-                        size.z, prints[i].triangles.size());
+std::string several_prints(const TriangleMesh& all, const PrintNumbers& prints) {
+  const std::size_t listed = std::min<std::size_t>(prints.count, 10);
+  std::vector<Box3> boxes(listed);
+  std::vector<std::size_t> triangles(listed);
+  for (std::size_t t = 0; t < all.triangles.size(); ++t) {
+    const std::uint32_t print = prints.of_triangle[t];
+    if (print >= listed) continue;
+    ++triangles[print];
+    for (const std::uint32_t v : all.triangles[t]) boxes[print].add(all.vertices[v]);
   }
-  return fmt::format("the file holds {} prints that do not touch ({}{}): choose one with --object N", prints.size(),
-                     list, prints.size() > 10 ? "; ..." : "");
+  std::string list;
+  for (std::size_t i = 0; i < listed; ++i) {
+    const Vec3 size = boxes[i].size();
+    list += fmt::format("{}{}: {:.4g} x {:.4g} x {:.4g} mm, {} triangles", i == 0 ? "" : "; ", i + 1, size.x, size.y,
+                        size.z, triangles[i]);
+  }
+  return fmt::format("the file holds {} prints that do not touch ({}{}): choose one with --object N", prints.count,
+                     list, prints.count > listed ? "; ..." : "");
 }
 
 TriangleMesh all_objects(const MeshFile& file) {
@@ -31,19 +43,27 @@ TriangleMesh all_objects(const MeshFile& file) {
   return all;
 }
 
-/// Everything in the file that touches is one print. Without a number all of them are taken, and `several` says how
-/// many there are: an open surface may look like several until it is repaired.
-Result<TriangleMesh> choose_print(const MeshFile& file, std::optional<std::size_t> object, std::string& several) {
+/// Everything in the file that touches is one print. Without a number all of them are taken.
+Result<TriangleMesh> choose_print(const MeshFile& file, std::optional<std::size_t> object, const Job& job) {
   TriangleMesh all = all_objects(file);
-  std::vector<TriangleMesh> prints = split_prints(all);
-  if (!object) {
-    if (prints.size() > 1) several = several_prints(prints);
-    return all;
-  }
-  if (*object < 1 || *object > prints.size())
+  if (!object) return all;
+  const auto prints = number_prints(all, job);
+  if (!prints) return tl::unexpected(prints.error());
+  if (*object < 1 || *object > prints->count)
     return fail(ErrorCode::invalid_option,
-                fmt::format("--object is {}; the file holds {} prints, counted from 1", *object, prints.size()));
-  return std::move(prints[*object - 1]);
+                fmt::format("--object is {}; the file holds {} prints, counted from 1", *object, prints->count));
+  if (prints->count == 1) return all;
+  return detail::submesh(all, [&](std::uint32_t t) { return prints->of_triangle[t] == *object - 1; });
+}
+
+/// Says that there are several prints where there are: in the solid, and in the mesh that it was made of, for an open
+/// surface may look like several until it is repaired.
+Result<std::string> find_several(const Repaired& repaired, const TriangleMesh& given, const Job& job) {
+  if (repaired.prints.count < 2) return {};
+  if (repaired.report.method == RepairMethod::none) return several_prints(repaired.solid.mesh(), repaired.prints);
+  const auto prints = number_prints(given, job);
+  if (!prints) return tl::unexpected(prints.error());
+  return prints->count < 2 ? std::string() : several_prints(given, *prints);
 }
 
 /// A unit given by the user replaces the file's, which the reader has applied.
@@ -54,9 +74,8 @@ PlacementOptions with_file_unit(PlacementOptions placement, const MeshFile& file
 
 }  // namespace
 
-Result<TriangleMesh> load_print(const MeshFile& file, const InputOptions& options) {
-  std::string several;
-  const auto print = choose_print(file, options.object, several);
+Result<TriangleMesh> load_print(const MeshFile& file, const InputOptions& options, const Job& job) {
+  const auto print = choose_print(file, options.object, job);
   if (!print) return tl::unexpected(print.error());
   return place(*print, with_file_unit(options.placement, file)).map([](Placed placed) {
     return std::move(placed.mesh);
@@ -64,25 +83,27 @@ Result<TriangleMesh> load_print(const MeshFile& file, const InputOptions& option
 }
 
 Result<TriangleMesh> load_print(const std::filesystem::path& path, const InputOptions& options, const Job& job) {
-  const auto file = read_mesh(path, options.read, job);
+  const auto file = read_mesh(path, options.read, job.part(0, 0.8));
   if (!file) return tl::unexpected(file.error());
-  return load_print(*file, options);
+  return load_print(*file, options, job.part(0.8, 1));
 }
 
 Result<Input> load_solid(const MeshFile& file, const InputOptions& options, const Job& job, const StageViewer& view) {
   StageSeconds seconds;
   StageClock clock(seconds);
-  std::string several;
-  const auto print = choose_print(file, options.object, several);
+  const auto print = choose_print(file, options.object, job.part(0, 0.1));
   if (!print) return tl::unexpected(print.error());
   if (view) view("1-read", *print);
   const auto placed = place(*print, with_file_unit(options.placement, file));
   if (!placed) return tl::unexpected(placed.error());
   if (view) view("2-placed", placed->mesh);
-  auto repaired = repair(placed->mesh, options.repair, job);
+  auto repaired = repair(placed->mesh, options.repair, job.part(0.1, 0.95));
   if (!repaired) return tl::unexpected(repaired.error());
-  if (!several.empty() && split_prints(repaired->solid.mesh()).size() > 1)
-    return fail(ErrorCode::unusable_input, std::move(several));
+  if (!options.object) {
+    auto several = find_several(*repaired, placed->mesh, job.part(0.95, 1));
+    if (!several) return tl::unexpected(several.error());
+    if (!several->empty()) return fail(ErrorCode::unusable_input, std::move(*several));
+  }
   if (view) view("3-solid", repaired->solid.mesh());
   clock.lap("repair");
   Input input{repaired->solid,  repaired->solid.moments(), std::move(repaired->report), file.notes, seconds, {},

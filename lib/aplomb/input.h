@@ -39,16 +39,16 @@ using StageViewer = std::function<void(std::string_view name, const TriangleMesh
 
 /// Reads a file, chooses one print and places it, as it is.
 ///
-/// \return what read_mesh() and place() return; invalid_option when there is no such print.
+/// \return what read_mesh(), number_prints() and place() return; invalid_option when there is no such print.
 Result<TriangleMesh> load_print(const std::filesystem::path& path, const InputOptions& options, const Job& job = {});
 
 /// The same of what was read already, or never was in a file.
-Result<TriangleMesh> load_print(const MeshFile& file, const InputOptions& options);
+Result<TriangleMesh> load_print(const MeshFile& file, const InputOptions& options, const Job& job = {});
 
 /// Reads a file, chooses one print, places it and makes a solid of it.
 ///
-/// \return what read_mesh(), place() and repair() return; unusable_input when the file holds several prints, with their
-///         numbers and sizes, and none was chosen.
+/// \return what read_mesh(), split_prints(), place() and repair() return; unusable_input when the file holds several
+///         prints, with their numbers and sizes, and none was chosen.
 Result<Input> load_solid(const std::filesystem::path& path, const InputOptions& options, const Job& job = {},
                          const StageViewer& view = {});
 

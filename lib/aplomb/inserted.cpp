@@ -10,6 +10,7 @@
 
 #include "aplomb/carve/moment_tree.h"
 #include "aplomb/carve/plane_search.h"
+#include "aplomb/core/pulse.h"
 #include "aplomb/fdm/predict_print.h"
 #include "aplomb/printability/detail/places.h"
 
@@ -118,7 +119,11 @@ class Inserter {
     if (!plane) return tl::unexpected(plane.error());
     const auto choice = chooser.choose_for(*plane, allowed_, job.part(0.6, 0.9));
     if (!choice) return tl::unexpected(choice.error());
-    if (choice->places.empty() && !chooser.any_fits()) return refusal(fits);
+    if (choice->places.empty()) {
+      const auto fits_somewhere = chooser.any_fits(job.part(0.6, 0.9));
+      if (!fits_somewhere) return tl::unexpected(fits_somewhere.error());
+      if (!*fits_somewhere) return refusal(fits);
+    }
     return with(*choice, *bound, fits, job.part(0.9, 1));
   }
 
@@ -127,7 +132,9 @@ class Inserter {
     const double voxel = std::min(2 * voxel_mm(options_, input_.solid.box()), options_.wall_mm / 2);
     const auto volume = voxelize(input_.solid, {options_.wall_mm, voxel, 0, options_.memory_bytes}, job.part(0, 0.7));
     if (!volume) return tl::unexpected(volume.error());
-    const MomentTree tree(carvable_blocks(*volume), volume->frame());
+    const Pulse pulse(job, 0.7, "carve");
+    const MomentTree tree(carvable_blocks(*volume, pulse), volume->frame());
+    if (pulse.stopped()) return cancelled();
     const BestBody best_body = [&](const AffineForm& form) {
       return solid - loads_.filled_ratio * tree.not_positive_part(form) + chooser.relaxed_load(form, allowed_);
     };

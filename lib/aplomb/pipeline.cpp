@@ -107,15 +107,20 @@ constexpr double same_place_mm = 2;
 
 bool is_changed(const StandRun& run) { return run.carving || run.report.deformation || run.report.inserts; }
 
-/// Judges what was written; where it fails, the model as it came too, to tell what carving did from what was there.
-Result<Judgement> judge_output(const TriangleMesh& written, const Input& input, const StandRun& run,
-                               const StandOptions& options, const Job& job) {
+/// Judges what was written, as the body that is printed; where it fails, the model as it came too, to tell what carving
+/// did from what was there.
+Result<Judgement> judge_output(const TriangleMesh& written, std::vector<Region> body, const Input& input,
+                               const StandRun& run, const StandOptions& options, const Job& job) {
   JudgeOptions judging = judge_options(options);
+  judging.body = std::move(body);
   judging.inserts = run.inserts;
   auto judgement = judge(written, judging, &run.shell->mesh, job.part(0, 0.5));
   if (!judgement || judgement->new_failures().empty()) return judgement;
   judging.inserts.clear();
-  const auto before = is_changed(run) ? judge(input.solid.mesh(), judging, nullptr, job.part(0.5, 1)) : judgement;
+  auto came = body_of(input.solid, run.layers, options, std::nullopt, job.part(0.5, 0.55));
+  if (!came) return tl::unexpected(came.error());
+  judging.body = std::move(*came);
+  const auto before = is_changed(run) ? judge(input.solid.mesh(), judging, nullptr, job.part(0.55, 1)) : judgement;
   if (!before) return tl::unexpected(before.error());
   const double moved_mm = run.report.deformation ? run.report.deformation->max_mm : 0;
   mark_inherited(*judgement, *before, same_place_mm + moved_mm);
@@ -173,7 +178,8 @@ Result<StandRun> finish(StandRun run, const Input& shaped, std::optional<Attempt
   }
   if (!reaches && made) {
     clock.lap("measure");
-    add_advice(report, shaped, made->joint, options, job);
+    if (const auto advised = add_advice(report, shaped, made->joint, options, job); !advised)
+      return tl::unexpected(advised.error());
     clock.lap("advise");
   }
   return run;
@@ -291,7 +297,7 @@ Result<Report> measure_output(const TriangleMesh& written, const Input& input, c
   auto after = measure_poses(written, with_regions(*body, run.inserts), options);
   if (!after) return tl::unexpected(after.error());
   set_after(report, std::move(*after), kind_of(options));
-  auto judgement = judge_output(written, input, run, options, job.part(0.5, 1));
+  auto judgement = judge_output(written, *body, input, run, options, job.part(0.5, 1));
   if (!judgement) return tl::unexpected(judgement.error());
   report.judgement = std::move(*judgement);
   if (report.carving || report.deformation || report.ballast || report.inserts)

@@ -47,14 +47,14 @@ Result<Finished> run_check(const MeshFile& file, const JobFile& asked, const Job
 }
 
 Result<Finished> run_validate(const MeshFile& file, const JobFile& asked, const Job& job) {
-  const auto mesh = load_print(file, asked.input);
+  const auto mesh = load_print(file, asked.input, job.part(0, 0.1));
   if (!mesh) return tl::unexpected(mesh.error());
   const StandOptions options = stand_options(asked, bounding_box(*mesh).size().z);
   JudgeOptions judging = options.judge;
   const StandingPose* pose = options.poses.front().standing();
   judging.pose = pose ? std::optional(*pose) : std::nullopt;
   judging.density_g_per_cm3 = options.density_g_per_cm3;
-  return judge(*mesh, judging, nullptr, job).map([](const Judgement& judgement) {
+  return judge(*mesh, judging, nullptr, job.part(0.1, 1)).map([](const Judgement& judgement) {
     const std::string text = to_text(judgement);
     return Finished{ending_of(judgement), text.substr(0, text.find('\n')), to_json(judgement), {}};
   });

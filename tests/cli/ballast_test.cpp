@@ -40,6 +40,22 @@ TEST_F(BallastFlag, SparseInfillIsMadeDenserOnOneSideAndTheModelLeavesAsItCame) 
   EXPECT_EQ(back->objects.front().mesh.triangles.size(), came->objects.front().mesh.triangles.size());
 }
 
+TEST_F(BallastFlag, TheJudgeWeighsWhatIsPrintedAndNotASolid) {
+  for (const char* flags : {"", "--no-ballast --wall 4mm --voxel 2mm --best-effort"}) {
+    run(stand("out.3mf", flags));
+    const auto told = report();
+    int angles = 0;
+    for (const auto& check : told.at("judgement").at("checks"))
+      for (const auto& [id, angle] :
+           {std::pair{"stand.nominal", "tip_deg"}, std::pair{"stand.robust", "robust_tip_deg"}})
+        if (check.at("id") == id) {
+          EXPECT_NEAR(check.at("measured"), told.at("after").at(angle), 1e-6) << id << ", " << flags;
+          ++angles;
+        }
+    EXPECT_EQ(angles, 2);
+  }
+}
+
 TEST_F(BallastFlag, TheDenseVolumeIsWrittenOnItsOwn) {
   ASSERT_EQ(run(stand("out.stl", "--modifier " + path("dense.stl"))), 0) << text_of("stderr");
   const auto dense = read_mesh(path("dense.stl"));

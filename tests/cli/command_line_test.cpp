@@ -29,6 +29,53 @@ TEST_F(CommandLine, UsageErrorsEndInOne) {
   EXPECT_FALSE(fs::exists(path("out.xyz")));
 }
 
+TEST_F(CommandLine, TwoOutputsThatAreOneFileAreAUsageErrorAndTouchNothing) {
+  const std::string model = toppling(), stand = "stand " + model + " --tip 1deg";
+  std::ofstream(path("out.stl")) << "old";
+  fs::create_directory(path("sub"));
+  fs::create_symlink("out.stl", path("link.stl"));
+  for (const std::string flag : {"--plugs", "--report", "--modifier", "--picture", "--html", "--save-job"})
+    for (const std::string& other : {path("out.stl"), path("sub/../out.stl"), path("link.stl")}) {
+      EXPECT_EQ(run(stand + " -o " + path("out.stl") + " " + flag + " " + other), 1) << flag << other;
+      EXPECT_NE(text_of("stderr").find("give each a file of its own"), std::string::npos) << text_of("stderr");
+      EXPECT_EQ(text_of("out.stl"), "old") << flag;
+    }
+  EXPECT_EQ(run(stand + " -o new.stl --report ./new.stl"), 1);  // neither is there yet
+  EXPECT_EQ(run(stand + " -o - --report -"), 1);
+  EXPECT_NE(text_of("stderr").find("both go to standard output"), std::string::npos) << text_of("stderr");
+  EXPECT_EQ(text_of("stdout"), "");
+  const std::string before = text_of("leaning.stl");
+  EXPECT_EQ(run("check " + model + " --report " + model), 1);
+  EXPECT_EQ(text_of("leaning.stl"), before);
+  EXPECT_EQ(run("check " + model + " --report /dev/null --html /dev/null"), 3) << text_of("stderr");
+}
+
+TEST_F(CommandLine, AJobIsNotReplacedByWhatItWrites) {
+  const std::string job = R"({"aplomb_job": 1, "model": "leaning.stl", "poses": [{"stand": {}}]})";
+  toppling();
+  std::ofstream(path("job.json")) << job;
+  for (const std::string flag : {"--report", "--html", "--picture"}) {
+    EXPECT_EQ(run("run " + path("job.json") + " " + flag + " " + path("./job.json")), 1) << flag;
+    EXPECT_NE(text_of("stderr").find("a file of its own"), std::string::npos) << text_of("stderr");
+    EXPECT_EQ(text_of("job.json"), job) << flag;
+  }
+}
+
+TEST_F(CommandLine, ANameThatWouldSpeakToTheTerminalIsShownWithout) {
+  const std::string name = path("a\x1b]0;owned\x07.stl"), quoted = "'" + name + "'";
+  EXPECT_EQ(run("check one.stl " + quoted), 1);
+  EXPECT_EQ(text_of("stderr").find('\x1b'), std::string::npos) << text_of("stderr");
+  EXPECT_EQ(run("check " + quoted), 2);
+  EXPECT_EQ(text_of("stderr").find('\x1b'), std::string::npos) << text_of("stderr");
+  std::ofstream(name) << "no mesh";
+  for (const std::string command : {"check ", "verify ", "run ", "validate ", "poses "}) {
+    EXPECT_NE(run(command + quoted), 0) << command;
+    EXPECT_EQ(text_of("stderr").find('\x1b'), std::string::npos) << command << text_of("stderr");
+  }
+  EXPECT_EQ(run("stand " + toppling() + " -o " + quoted + "/x.stl"), 2);
+  EXPECT_EQ(text_of("stderr").find('\x1b'), std::string::npos) << text_of("stderr");
+}
+
 TEST_F(CommandLine, InputThatCannotBeUsedEndsInTwoWithOneSentence) {
   std::ofstream(path("bad.stl")) << "this is no mesh";
   EXPECT_EQ(run("stand " + path("bad.stl") + " -o " + path("out.3mf")), 2);
@@ -127,10 +174,11 @@ TEST_F(CommandLine, EndsWithFiveAndWithoutOutputWhereTheTimeOrTheTrianglesAreOve
   const std::string stand = "stand " + toppling() + " --tip 6deg -o " + path("out.3mf");
   EXPECT_EQ(run(stand + " --time 20ms"), 5);
   EXPECT_NE(text_of("stderr").find("the time is over (--time)"), std::string::npos) << text_of("stderr");
-  EXPECT_EQ(run(stand + " --max-triangles 11"), 5);  // of 12
+  for (const char* few : {"1", "6", "11"}) EXPECT_EQ(run(stand + " --max-triangles " + few), 5) << few;  // of 12
   EXPECT_FALSE(fs::exists(path("out.3mf")));
   EXPECT_EQ(run(stand + " --time 10min --max-triangles 12"), 0) << text_of("stderr");
   EXPECT_TRUE(fs::exists(path("out.3mf")));
+  EXPECT_EQ(run(stand + " --max-triangles 13"), 0);
   EXPECT_EQ(run(stand + " --time 0s"), 1);
   EXPECT_EQ(run(stand + " --time soon"), 1);
 }

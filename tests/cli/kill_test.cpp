@@ -1,11 +1,14 @@
 // However a run ends, the old file or the complete new one is there; what a run may not do or take, it says.
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <random>
@@ -37,6 +40,22 @@ class Killed : public CommandLine {
     waitpid(child, &status, 0);
     return status;
   }
+  /// Without a word to the system that nobody waits for it any more: it can still be killed.
+  static void wait_until_dead(pid_t child) {
+    siginfo_t info{};
+    waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOWAIT);
+  }
+  /// Until the program has taken signals into its own hands: before, while it is loaded, they end it as any other.
+  static void wait_until_it_catches(pid_t child, int signal) {
+    for (int tries = 0; tries < 60'000; ++tries, usleep(1'000)) {
+      std::ifstream status("/proc/" + std::to_string(child) + "/status");
+      std::string line;
+      while (std::getline(status, line) && !line.starts_with("SigCgt:")) {
+      }
+      if (line.starts_with("SigCgt:") && std::stoull(line.substr(7), nullptr, 16) >> (signal - 1) & 1) return;
+    }
+    FAIL() << "it never catches signal " << signal;
+  }
   std::vector<std::string> standing(const std::string& model, const std::string& output) const {
     return {"stand", model, "--tip", "4deg", "--voxel", "1mm", "--wall", "2mm", "-q", "-o", output};
   }
@@ -61,14 +80,15 @@ TEST_F(Killed, AtFiftyMomentsTheOldFileOrTheCompleteNewOneIsThere) {
     const bool is_late = kill_number % 2 == 1;  // half of them about the moment at which it is written
     const double share = std::uniform_real_distribution<double>(is_late ? 0.85 : 0.0, 1.1)(random);
     usleep(static_cast<useconds_t>(1e6 * share * whole_s));
+    if (kill_number % 25 == 24) wait_until_dead(child);  // however slow this one is, too late
     kill(child, SIGKILL);
     ending_of(child);
     const std::string left = text_of("out.3mf");
     EXPECT_TRUE(left == old_file || left == new_file) << left.size() << " bytes after kill " << kill_number;
     ++(left == old_file ? olds : news);
   }
-  EXPECT_GT(olds, 0);
-  EXPECT_EQ(olds + news, 50);
+  EXPECT_GT(olds, 0);  // the few ms of the write itself: AtomicFile, which is killed while it writes for long
+  EXPECT_GT(news, 0);
 }
 
 TEST_F(Killed, WhatAKillLeftIsClearedByTheNextRunAndNothingElseIs) {
@@ -93,11 +113,12 @@ TEST_F(Killed, InterruptedAtAnyMomentItEndsWithFourAndLeavesNothingBeside) {
   for (int n = 0; n < 12; ++n) {
     std::ofstream(output, std::ios::binary) << "old";
     const pid_t child = start(standing(model, output));
-    usleep(std::uniform_int_distribution<useconds_t>(100'000, 700'000)(random));
+    wait_until_it_catches(child, SIGINT);
+    usleep(std::uniform_int_distribution<useconds_t>(0, 600'000)(random));
     kill(child, SIGINT);
     const int status = ending_of(child);
-    ASSERT_TRUE(WIFEXITED(status));
-    EXPECT_TRUE(WEXITSTATUS(status) == 4 || WEXITSTATUS(status) == 0);
+    ASSERT_TRUE(WIFEXITED(status)) << "signal " << WTERMSIG(status) << " in run " << n;
+    EXPECT_TRUE(WEXITSTATUS(status) == 4 || WEXITSTATUS(status) == 0) << WEXITSTATUS(status) << " in run " << n;
     const bool is_old = text_of("out.3mf") == "old";
     EXPECT_TRUE(is_old || read_mesh(fs::path(output)).has_value());
     EXPECT_EQ(names(), (std::multiset<std::string>{"leaning.stl", "out.3mf"}));
@@ -127,10 +148,14 @@ TEST_F(Killed, AChildThatDiesInARepairCostsThatRepairAndNotTheRun) {
 
 class Limits : public Killed {
  protected:
-  /// Peak of what it held of its own, in MB, and its exit code; no room for more than `file_bytes` in a file.
+  /// Peak of what it held of its own, in MB, and its exit code; no room for more than `file_bytes` in a file. What it
+  /// says to stderr is in "stderr".
   std::pair<double, int> run_with(std::vector<std::string> arguments, rlim_t file_bytes = RLIM_INFINITY) const {
     const pid_t child = fork();
     if (child == 0) {
+      const int said = open(path("stderr").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+      dup2(said, STDERR_FILENO);
+      close(said);
       const rlimit limit{file_bytes, file_bytes};
       setrlimit(RLIMIT_FSIZE, &limit);
       signal(SIGXFSZ, SIG_IGN);  // as on a full disk: write() fails
@@ -174,8 +199,39 @@ TEST_F(Limits, TheMemoryAllowedIsKeptTenfoldOverJustOverAndJustUnder) {
     EXPECT_LT(peak_mb, share * own_mb + libraries_mb) << arguments.back();
     EXPECT_FALSE(fs::exists(path("out.3mf")));
   }
-  arguments.back() = std::to_string(static_cast<int>(std::max(2.0 * own_mb, own_mb + 100))) + "MB";
-  EXPECT_EQ(run_with(arguments).second, code);
+  double enough = 1.02;  // what it takes differs from run to run
+  const auto ending_with = [&](double share) {
+    arguments.back() = std::to_string(static_cast<int>(std::ceil(share * own_mb))) + "MB";
+    return run_with(arguments).second;
+  };
+  while (enough < 2 && ending_with(enough) != code) enough *= 1.05;
+  std::cout << "  takes " << own_mb << " MB, " << enough << " of it are enough\n";
+  EXPECT_LT(enough, 1.35);
+}
+
+TEST_F(Limits, TheTimeAllowedIsKeptTenfoldOverAndJustUnder) {
+  std::vector<std::string> arguments = standing(toppling(), path("out.3mf"));
+  const auto seconds = [&] {
+    const auto start = Clock::now();
+    EXPECT_EQ(run_with(arguments).second, 0);
+    return std::chrono::duration<double>(Clock::now() - start).count();
+  };
+  const double whole_s = std::max(seconds(), seconds());
+  const auto ending_within = [&](double share) {
+    fs::remove(path("out.3mf"));
+    std::vector<std::string> limited = arguments;
+    limited.insert(limited.end(), {"--time", std::to_string(static_cast<int>(1000 * share * whole_s)) + "ms"});
+    return run_with(limited).second;
+  };
+  for (const double share : {0.1, 0.5}) {
+    EXPECT_EQ(ending_within(share), 5) << share << " of " << whole_s << " s";
+    EXPECT_FALSE(fs::exists(path("out.3mf")));
+    EXPECT_NE(text_of("stderr").find("--time"), std::string::npos) << text_of("stderr");
+  }
+  double enough = 1.1;  // the machine may be slower now than it was
+  while (enough < 8 && ending_within(enough) != 0) enough *= 1.3;
+  EXPECT_LT(enough, 8);
+  EXPECT_TRUE(fs::exists(path("out.3mf")));
 }
 
 TEST_F(Limits, MemoryThatNobodyEstimatedIsWatchedWhileItIsTaken) {
@@ -195,8 +251,11 @@ TEST_F(Limits, AFullDiskLeavesTheOldFileAndSaysSo) {
   const std::string output = path("out.stl");
   std::ofstream(output) << "old";
   EXPECT_EQ(run_with(standing(toppling(), output), 2000).second, 2);
+  const std::string said = text_of("stderr");
+  EXPECT_NE(said.find("cannot write " + output + ": "), std::string::npos) << said;
+  EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
   EXPECT_EQ(text_of("out.stl"), "old");
-  EXPECT_EQ(names(), (std::multiset<std::string>{"leaning.stl", "out.stl"}));
+  EXPECT_EQ(names(), (std::multiset<std::string>{"leaning.stl", "out.stl", "stderr"}));
   EXPECT_EQ(run_with(standing(toppling(), "/dev/full")).second, 1);  // no format
 }
 

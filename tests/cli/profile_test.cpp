@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "cli/command_line.h"
@@ -43,11 +44,29 @@ TEST_F(ProfileFlag, StandWarnsWhereAVoidAddsMassAndJudgesTheSlicedPrint) {
   EXPECT_LT(report().at("after").at("tip_deg"), 6);
 }
 
-TEST_F(ProfileFlag, RefusesWhatIsNoProfile) {
-  const std::string check = "check " + toppling() + " --profile ";
-  EXPECT_EQ(run(check + path("none.ini")), 2);
-  EXPECT_EQ(run(check + path("leaning.stl")), 2);
-  EXPECT_NE(text_of("stderr").find("no profile of PrusaSlicer"), std::string::npos) << text_of("stderr");
+TEST_F(ProfileFlag, WhatIsNoProfileEndsInOneLineAndNoOutput) {
+  const auto expect_refused = [this](const std::string& profile, const std::string& words) {
+    const std::string stand = "stand " + toppling() + " -o " + path("out.stl") + " --report " + path("r.json");
+    EXPECT_EQ(run(stand + " --profile " + profile), 2) << text_of("stderr");
+    const std::string said = text_of("stderr");
+    EXPECT_EQ(std::ranges::count(said, '\n'), 1) << said;
+    EXPECT_TRUE(said.ends_with('\n')) << said;
+    EXPECT_NE(said.find(words), said.npos) << said;
+    EXPECT_NE(said.find("; "), said.npos) << said;
+    EXPECT_EQ(text_of("stdout"), "");
+    EXPECT_FALSE(fs::exists(path("out.stl")) || fs::exists(path("r.json"))) << profile;
+  };
+  const auto write_text = [this](const std::string& text) {
+    std::ofstream(path("p.ini"), std::ios::binary) << text;
+    return path("p.ini");
+  };
+  expect_refused(path("none.ini"), "cannot be read");
+  expect_refused(path("leaning.stl"), "no profile of PrusaSlicer");
+  expect_refused(write_text("perimeters = 2\nfill_density = 15%\nlayer_height = 0,2\n"),
+                 "p.ini: line 3: layer_height is '0,2'");
+  expect_refused(write_text("wall_line_count = 2\nlayer_height = =0.1 * 2\n"),
+                 "line 2: layer_height is '=0.1 * 2', an expression");
+  expect_refused(write_text("\xFF\xFEp"), "byte 0: the text is UTF-16");
 }
 
 }  // namespace

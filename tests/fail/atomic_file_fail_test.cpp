@@ -29,6 +29,16 @@ TEST(AtomicFileFails, OnAMissingFolderADirectoryAFileAsFolderAndALinkInACircle) 
   EXPECT_EQ(folder.entries(), 2u);
 }
 
+TEST(AtomicFileFails, ToHandOnThatAFileRunsAsItsOwner) {
+  const TempFolder folder;
+  write_text(folder / "tool", "old");
+  const fs::perms asked = fs::perms::owner_all | fs::perms::group_read | fs::perms::set_uid | fs::perms::set_gid;
+  fs::permissions(folder / "tool", asked);
+  ASSERT_EQ(fs::status(folder / "tool").permissions(), asked);
+  ASSERT_TRUE(write_file_atomically(folder / "tool", bytes_of("content")));
+  EXPECT_EQ(fs::status(folder / "tool").permissions(), fs::perms::owner_all | fs::perms::group_read);
+}
+
 TEST(AtomicFileFails, OnAFullDisk) { expect_file_error("/dev/full"); }
 
 /// Root may write everywhere, and so takes another identity meanwhile.
@@ -46,6 +56,12 @@ class AsOrdinaryUser {
 
   bool was_root_ = ::geteuid() == 0;
 };
+
+TEST(AtomicFileFails, WithoutWhatATerminalWouldObeyInTheName) {
+  const auto written = write_file_atomically("missing/a\x1b[2J", bytes_of("content"));
+  ASSERT_FALSE(written);
+  EXPECT_EQ(written.error().message.find('\x1b'), std::string::npos);
+}
 
 TEST(AtomicFileFails, InAReadOnlyFolderAndOnAReadOnlyFile) {
   const AsOrdinaryUser user;

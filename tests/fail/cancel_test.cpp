@@ -2,21 +2,20 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <set>
 
-#include "aplomb/balance/landing.h"
+#include "aplomb/deform/bend_preview.h"
 #include "aplomb/io/read_mesh.h"
 #include "aplomb/job/job_file.h"
-#include "support/gcode_files.h"
+#include "aplomb/mesh/bodies.h"
+#include "page.h"
+#include "support/cancelled.h"
+#include "support/many_bodies.h"
 #include "support/mesh_files.h"
-#include "support/patience.h"
 #include "support/shapes.h"
 
 namespace aplomb {
 namespace {
-
-constexpr double most_end_s = 0.2;
-/// Our aim is 0.1; a checked build may take twice that.
-constexpr double most_silence_s = 0.2;
 
 /// A whole run as a program makes it, in memory: a job without its model, and the model.
 struct WholeRun {
@@ -56,9 +55,9 @@ Result<void> go(const WholeRun& run, const MeshFile& file, const Job& job) {
   if (!asked) return tl::unexpected(asked.error());
   asked->input.repair.insist = true;
   if (run.is_validation) {
-    const auto print = load_print(file, asked->input);
+    const auto print = load_print(file, asked->input, job.part(0, 0.1));
     if (!print) return tl::unexpected(print.error());
-    return without_value(judge(*print, asked->options.judge, nullptr, job));
+    return without_value(judge(*print, asked->options.judge, nullptr, job.part(0.1, 1)));
   }
   const auto input = load_solid(file, asked->input, job.part(0, 0.2));
   if (!input) return tl::unexpected(input.error());
@@ -86,26 +85,12 @@ class Cancelled : public testing::TestWithParam<WholeRun> {};
 TEST_P(Cancelled, AtAnyReportARunEndsSoonAndSaysSo) {
   MeshFile file;
   file.objects.push_back({"model", GetParam().model()});
-  test::Patience whole;
-  const auto made = go(GetParam(), file, whole.job());
-  ASSERT_TRUE(made.has_value()) << made.error().message;
-  whole.ended();
-  EXPECT_LT(whole.longest_silence_s(), most_silence_s) << whole.silent_stage();
+  const auto run = [&](const Job& job) { return go(GetParam(), file, job); };
+  const test::Patience whole = test::whole(run);
   ASSERT_GT(whole.reports(), 5);
-  double worst_s = 0;
-  for (int k = 1; k <= whole.reports(); k += 1 + whole.reports() / 6) {
-    test::Patience patience(k);
-    const auto result = go(GetParam(), file, patience.job());
-    const double end_s = patience.ended();
-    ASSERT_FALSE(result.has_value()) << "goes on after report " << k << " of " << whole.reports();
-    EXPECT_EQ(result.error().code, ErrorCode::cancelled) << "at report " << k << ": " << result.error().message;
-    EXPECT_EQ(patience.reports(), k) << "asked again after it was told to stop";
-    EXPECT_LT(end_s, most_end_s) << "at report " << k;
-    worst_s = std::max(worst_s, end_s);
-  }
+  const double worst_s = test::expect_cancelled_at_a_spread(whole, run, 6);
   RecordProperty("reports", whole.reports());
-  std::cout << "  " << whole.reports() << " reports, ends in at most " << 1e3 * worst_s << " ms, silent for at most "
-            << 1e3 * whole.longest_silence_s() << " ms (" << whole.silent_stage() << ")\n";
+  std::cout << "  " << whole.reports() << " reports, ends in at most " << 1e3 * worst_s << " ms\n";
 }
 
 const WholeRun runs[] = {
@@ -131,6 +116,77 @@ const WholeRun runs[] = {
 
 INSTANTIATE_TEST_SUITE_P(Every, Cancelled, testing::ValuesIn(runs),
                          [](const auto& run) { return std::string(run.param.name); });
+
+TEST(CancelledStages, AtTheirFirstAndLastReportRunsEndSoonAndSaySo) {
+  std::set<std::string> seen;
+  for (const WholeRun& of : runs) {
+    MeshFile file;
+    file.objects.push_back({"model", of.model()});
+    const auto run = [&](const Job& job) { return go(of, file, job); };
+    test::expect_cancelled_in_stages(test::whole(run), run, seen);
+  }
+  EXPECT_GT(seen.size(), 25u);
+}
+
+/// At the voxel that is chosen for it: those above are coarse. Allowed is four times what is measured on quiet cores.
+TEST(CancelledFixtures, ARunAtItsOwnResolutionIsNeverSilentForLong) {
+  const auto file = read_mesh(std::filesystem::path(APLOMB_FIXTURES) / "trex.stl");
+  ASSERT_TRUE(file);
+  for (const char* keys : {R"(, "best_effort": true)", R"(, "best_effort": true, "process": "sla")"}) {
+    const WholeRun of{"trex", keys, nullptr};
+    test::never_silent([&](const Job& job) { return go(of, *file, job); }, test::is_sanitized() ? 2 : 0.4);
+  }
+}
+
+/// What is no part of such a run.
+class CancelledApart : public testing::Test {
+ protected:
+  template <class Run>
+  static void expect_all(const Run& run, int least_reports) {
+    const test::Patience whole = test::whole(run);
+    EXPECT_GE(whole.reports(), least_reports);
+    test::expect_cancelled_at_a_spread(whole, run, 8);
+    std::set<std::string> seen;
+    test::expect_cancelled_in_stages(whole, run, seen);
+  }
+};
+
+TEST_F(CancelledApart, ACheckEndsSoonAndSaysSo) {
+  MeshFile file;
+  file.objects.push_back({"model", leaning_ball()});
+  const auto input = load_solid(file, {});
+  ASSERT_TRUE(input);
+  StandOptions options;
+  options.profile = PrintProfile{};
+  expect_all([&](const Job& job) { return check(*input, options, job); }, 3);
+}
+
+TEST_F(CancelledApart, APageEndsSoonAndSaysSo) {
+  const TriangleMesh before = leaning_ball(), after = leaning();
+  page::PageContent content{.title = "page", .before = &before, .after = &after, .poses = {Pose{}}};
+  content.judgement = judge(after, {}).value();
+  expect_all([&](const Job& job) { return page::html_page(content, job); }, 3);
+}
+
+TEST_F(CancelledApart, APreviewOfABendEndsSoonAndSaysSo) {
+  const auto solid = check_solid(test::leaning_prism(20, 20, 80, 16));
+  ASSERT_TRUE(solid && solid->solid);
+  const auto make = [&](const Job& job) {
+    return BendPreview::make(*solid->solid, {Pose{}}, {.reshape = {.wall_mm = 3}, .samples = 8000}, job);
+  };
+  expect_all(make, 2);
+  const auto preview = make({});
+  ASSERT_TRUE(preview);
+  BendWish wish;
+  wish.regions.handles.push_back({{{14, 0, 76}, 6}, Vec3{22, 0, 74}});
+  wish.most_steps = 6;
+  expect_all([&](const Job& job) { return preview->advance(wish, {}, job); }, 2);
+}
+
+TEST_F(CancelledApart, TellingPrintsApartEndsSoonAndSaysSo) {
+  const TriangleMesh mesh = test::tetrahedra_stacked(test::is_sanitized() ? 5'000 : 50'000);
+  expect_all([&](const Job& job) { return split_prints(mesh, job); }, 8);
+}
 
 }  // namespace
 }  // namespace aplomb

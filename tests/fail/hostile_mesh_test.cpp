@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "support/expect_refused.h"
 #include "support/mesh_files.h"
 #include "support/shapes.h"
 
@@ -13,44 +14,38 @@ namespace {
 
 using namespace std::string_literals;
 
-/// Fails the test unless reading ends in unusable_input whose message names the file and holds `words`.
-void expect_unusable(std::string_view text, std::string_view name, std::string_view words) {
-  const auto file = read_text(text, name);
-  ASSERT_FALSE(file) << name << " was read: " << text.substr(0, 60);
-  EXPECT_EQ(file.error().code, ErrorCode::unusable_input) << file.error().message;
-  EXPECT_NE(file.error().message.find(name), std::string::npos) << file.error().message;
-  EXPECT_NE(file.error().message.find(words), std::string::npos) << file.error().message;
-}
-
 const std::vector<float> kFacet{0, 0, 0, 1, 0, 0, 0, 1, 0};
 constexpr std::string_view kPlyHead =
     "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
 
 TEST(HostileMesh, CountsThatLieAreFoundBeforeAnythingIsAllocated) {
   for (const std::uint32_t count : {2u, 85899346u, 0x80000000u, 0xffffffffu})  // 85899346 * 50 wraps around 2^32
-    expect_unusable(binary_stl(count, kFacet), "a.stl", "facets");
-  expect_unusable(binary_stl(0, {}), "a.stl", "no triangles");
+    expect_refused(binary_stl(count, kFacet), "a.stl", "facets");
+  expect_refused(binary_stl(0, {}), "a.stl", "no triangles");
   for (const std::string count : {"99", "4294967295", "18446744073709551615"}) {
-    expect_unusable("OFF\n" + count + " 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "a.off", "line 2");
-    expect_unusable(
+    expect_refused("OFF\n" + count + " 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "a.off", "line 2");
+    expect_refused(
         std::string(kPlyHead) + "element face " + count + "\nproperty list int int vertex_indices\nend_header\n",
         "a.ply", "promises");
   }
-  expect_unusable("OFF\n-3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "a.off", "line 2");
-  expect_unusable("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n2000000000 0 1 2\n", "a.off", "line 6");
-  expect_unusable(std::string(kPlyHead) + "element face -1\nproperty list int int vertex_indices\nend_header\n",
-                  "a.ply", "line 7");
+  expect_refused("OFF\n0 0 0\n", "a.off", "no triangles");
+  expect_refused("OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n", "a.off", "no triangles");
+  expect_refused("OFF\n0 1 0\n3 0 1 2\n", "a.off", "line 3");
+  expect_refused("OFF\n-3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "a.off", "line 2");
+  expect_refused("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n2000000000 0 1 2\n", "a.off", "line 6");
+  expect_refused(std::string(kPlyHead) + "element face -1\nproperty list int int vertex_indices\nend_header\n", "a.ply",
+                 "line 7");
 }
 
 TEST(HostileMesh, IndicesOutOfRangeNameTheirLine) {
   for (const char* index : {"4", "0", "-4", "99999999999", "9223372036854775808", "1.5", "x"}) {
     const std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 ";
-    expect_unusable(text + index + "\n", "a.obj", "line 4");
+    expect_refused(text + index + "\n", "a.obj", "line 4");
   }
   for (const char* index : {"3", "-1", "4294967296", "nan"}) {
-    expect_unusable(std::string("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 ") + index + "\n", "a.off", "line 6");
+    expect_refused(std::string("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 ") + index + "\n", "a.off", "line 6");
     const std::string tail = std::string("0 0 0\n1 0 0\n0 1 0\n3 0 1 ") + index + "\n";
-    expect_unusable(
+    expect_refused(
         std::string(kPlyHead) + "element face 1\nproperty list int double vertex_indices\nend_header\n" + tail, "a.ply",
         "face 0");
   }
@@ -61,15 +56,20 @@ TEST(HostileMesh, CoordinatesThatAreNoFiniteNumbersNameTheirPlace) {
   for (const std::string& value : std::vector<std::string>{
            "nan", "inf", "-inf", "1e400", "1e39", "0x10", "1,5", "--1", "", "+-1", "1" + zeros + "e-1",
            "1" + zeros + zeros + ".5e-300", "1e9" + zeros, "0." + zeros + "1e99999999999999999999"}) {
-    expect_unusable("v 0 0 0\nv 1 0 " + value + "\nv 0 1 0\nf 1 2 3\n", "a.obj", "line 2");
-    expect_unusable("OFF\n3 1 0\n0 0 0\n1 0 " + value + "\n0 1 0\n3 0 1 2\n", "a.off", "line 4");
-    expect_unusable("solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 " + value + "\n", "a.stl", "line 4");
+    expect_refused("v 0 0 0\nv 1 0 " + value + "\nv 0 1 0\nf 1 2 3\n", "a.obj", "line 2");
+    expect_refused("OFF\n3 1 0\n0 0 0\n1 0 " + value + "\n0 1 0\n3 0 1 2\n", "a.off", "line 4");
+    expect_refused("solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 " + value + "\n", "a.stl", "line 4");
   }
   for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
     std::vector<float> two = kFacet;
     two.insert(two.end(), {0, 0, 0, 1, bad, 0, 0, 1, 0});
-    expect_unusable(binary_stl(2, two), "a.stl", "facet 2");
+    expect_refused(binary_stl(2, two), "a.stl", "facet 2");
   }
+}
+
+TEST(HostileMesh, ACoordinateThatIsMissingIsCalledTheEndOfTheLine) {
+  expect_refused("v 0 0 0\nv 1 0 \nv 0 1 0\nf 1 2 3\n", "a.obj", "line 2: expected a finite coordinate, found the end");
+  expect_refused("OFF\n3 1 0\n0 0 0\n", "a.off", "found the end");
 }
 
 TEST(HostileMesh, NumbersTooSmallForDoubleAreZero) {
@@ -133,39 +133,39 @@ TEST(HostileMesh, AnyByteChangedIsAnErrorOrAValidMesh) {
 }
 
 TEST(HostileMesh, AsciiStlOutOfOrderNamesTheLine) {
-  expect_unusable("solid\nvertex 0 0 0\n", "a.stl", "line 2");
-  expect_unusable("solid\nfacet normal 0 0 1\nfacet normal 0 0 1\n", "a.stl", "line 3");
-  expect_unusable("solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nendloop\nendfacet\n", "a.stl",
-                  "line 7");
-  expect_unusable("solid\nfacet normal 0 0 1\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nvertex 1 1 0\n", "a.stl",
-                  "line 6");
-  expect_unusable("solid\nfrobnicate\n", "a.stl", "line 2");
+  expect_refused("solid\nvertex 0 0 0\n", "a.stl", "line 2");
+  expect_refused("solid\nfacet normal 0 0 1\nfacet normal 0 0 1\n", "a.stl", "line 3");
+  expect_refused("solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nendloop\nendfacet\n", "a.stl",
+                 "line 7");
+  expect_refused("solid\nfacet normal 0 0 1\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nvertex 1 1 0\n", "a.stl",
+                 "line 6");
+  expect_refused("solid\nfrobnicate\n", "a.stl", "line 2");
 }
 
 TEST(HostileMesh, TextThatIsNoMeshIsToldApart) {
-  expect_unusable("", "a.stl", "empty");
-  expect_unusable("hello", "a.stl", "neither");
-  expect_unusable("hello", "a.txt", "neither");
-  expect_unusable("\xFF\xFEs\0o\0l\0i\0d\0"s, "a.stl", "UTF-16");
-  expect_unusable("v 0 0\0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"s, "a.obj", "line 1");
-  expect_unusable("v 0 0 0\n", "a.obj", "no triangles");
-  expect_unusable("not a zip", "a.3mf", "zip");
-  expect_unusable("nOFF\n3\n3 1 0\n", "a.off", "line 1");
-  expect_unusable(
+  expect_refused("", "a.stl", "empty");
+  expect_refused("hello", "a.stl", "neither");
+  expect_refused("hello", "a.txt", "neither");
+  expect_refused("\xFF\xFEs\0o\0l\0i\0d\0"s, "a.stl", "UTF-16");
+  expect_refused("v 0 0\0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"s, "a.obj", "line 1");
+  expect_refused("v 0 0 0\n", "a.obj", "no triangles");
+  expect_refused("not a zip", "a.3mf", "zip");
+  expect_refused("nOFF\n3\n3 1 0\n", "a.off", "line 1");
+  expect_refused(
       "ply\nformat ascii 1.0\nelement vertex 3\nproperty list int float x\nproperty float y\nproperty float "
       "z\nend_header\n"
       "1 0 0 0 1 1 0 0 1 0 1 0 ",
       "a.ply", "lack");
-  expect_unusable("ply\nformat ascii 1.0\nelement vertex 1\nproperty quaternion x\n", "a.ply", "line 4");
-  expect_unusable("ply\nformat ascii 1.0\nelement vertex 1\nelement vertex 1\n", "a.ply", "line 4");
+  expect_refused("ply\nformat ascii 1.0\nelement vertex 1\nproperty quaternion x\n", "a.ply", "line 4");
+  expect_refused("ply\nformat ascii 1.0\nelement vertex 1\nelement vertex 1\n", "a.ply", "line 4");
 }
 
 TEST(HostileMesh, WordsAndLinesOfAnyLengthAreReadInPlace) {
   const std::string name(50'000'000, 'n');
   EXPECT_TRUE(read_text("o " + name + "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3", "a.obj"));
-  expect_unusable("v 0 0 " + name + "\n", "a.obj", "nnn...\"");
+  expect_refused("v 0 0 " + name + "\n", "a.obj", "nnn...\"");
   EXPECT_LT(read_text("v 0 0 " + name + "\n", "a.obj").error().message.size(), 200u);
-  expect_unusable("v 0 0 " + std::string(5'000'000, '9') + "\n", "a.obj", "line 1");
+  expect_refused("v 0 0 " + std::string(5'000'000, '9') + "\n", "a.obj", "line 1");
 }
 
 TEST(HostileMesh, BudgetsHoldForEveryFormat) {
@@ -200,6 +200,18 @@ TEST(HostileMesh, MissingFilesAndDirectoriesAreFileErrors) {
   EXPECT_EQ(read_mesh(folder.path()).error().code, ErrorCode::file_system);
   write_text(folder / "empty.stl", "");
   EXPECT_EQ(read_mesh(folder / "empty.stl").error().code, ErrorCode::unusable_input);
+}
+
+TEST(HostileMesh, NamesOfFilesAreShownWithoutWhatATerminalWouldObey) {
+  const TempFolder folder;
+  const std::filesystem::path name = folder / "a\x1b]0;owned\x07\n.stl";
+  EXPECT_EQ(read_mesh(name).error().message.find('\x1b'), std::string::npos);
+  write_text(name, "no mesh");
+  const auto file = read_mesh(name);
+  ASSERT_FALSE(file);
+  EXPECT_EQ(lack_of_refusal(file.error().message, (folder / "a?]0;owned??.stl").string()), "") << file.error().message;
+  write_text(name, std::string(1 << 20, 'x'));
+  EXPECT_EQ(read_mesh(name, {.memory_bytes = 1 << 20}).error().message.find('\x1b'), std::string::npos);
 }
 
 TEST(HostileMesh, EveryOptionOutOfItsRangeIsNamed) {

@@ -64,6 +64,7 @@ TEST(HostileText, WhatAJobHoldsIsShownShortAndWithoutControlCharacters) {
 
 TEST(HostileText, JobsOfOtherEncodingsCutOffOrWithNumbersNoDoubleHoldsAreRefused) {
   expect_bad_job("", "no JSON");
+  expect_bad_job("{", "; mend it there");
   expect_bad_job("\xFF\xFE{\0}\0"s, "no JSON");
   expect_bad_job("{\"aplomb_job\": 1, \"model\": \"a\0b\"}"s, "no JSON");
   expect_bad_job("{\"aplomb_job\": 1, \"model\": \"a\", \"place\": {\"scale\": 1e999}}", "no JSON");
@@ -99,23 +100,61 @@ TEST(HostileText, NumbersOfAProfileOutOfEveryRangeAreNamed) {
   const std::string prusa = "perimeters = 2\nfill_density = 15%\n", cura = "infill_sparse_density = 20\n";
   for (const char* bad : {"nan", "inf", "x", "", "1e999"})
     expect_bad_profile(prusa + "layer_height = " + bad, "layer_height");
-  expect_bad_profile(prusa + "layer_height = 0x10", "layer_mm");
+  expect_bad_profile(prusa + "layer_height = 0x10", "line 3: layer_height is '0x10', which is no number; ");
+  for (const char* bad : {"1,05", "0,2", "0.2mm", "0.2 0.3", "0.2,0.3", "1.2.3", "15%%", "+0.2", "1e-400"})
+    expect_bad_profile(prusa + "layer_height = " + bad, "line 3: layer_height is '" + std::string(bad) + "', which");
+  expect_bad_profile(prusa + "nozzle_diameter = 1,05", "line 3: nozzle_diameter is '1,05', which is no number");
+  expect_bad_profile(prusa + "nozzle_diameter = 0.4,x", "nozzle_diameter is '0.4,x', which is no number");
   expect_bad_profile(prusa + "layer_height = \x1b[2J", "'?[2J'");
   expect_bad_profile(prusa + "layer_height = " + std::string(1'000'000, 'x'), "...'");
-  expect_bad_profile("perimeters = 1e300\nfill_density = 15%", "perimeters");
+  expect_bad_profile("perimeters = 1e300\nfill_density = 15%", "line 1: perimeters is '1e300'");
   expect_bad_profile("perimeters = -3e9\nfill_density = 15%", "perimeters");
-  expect_bad_profile(cura + "wall_line_count = 1e300", "perimeters");
-  expect_bad_profile(cura + "line_width = 0", "width");
+  expect_bad_profile(cura + "wall_line_count = 1e300", "line 2: wall_line_count is '1e300'");
+  expect_bad_profile(cura + "machine_nozzle_size = 0", "machine_nozzle_size comes to 0; it must be");
   expect_bad_profile(cura + "top_layers = -1e300", "top_layers");
-  expect_bad_profile(prusa + "solid_infill_below_area = -1", "solid_below_mm2");
-  expect_bad_profile(prusa + "infill_overlap = 1e300", "infill_overlap_mm");
-  expect_bad_profile(prusa + "filament_density = 1e9", "density");
+  expect_bad_profile(prusa + "solid_infill_below_area = -1", "solid_infill_below_area is '-1'");
+  expect_bad_profile(prusa + "infill_overlap = 1e300", "infill_overlap is");
+  expect_bad_profile(prusa + "filament_density = 1e9",
+                     "filament_density is '1e9', which comes to 1e+09; it must be at least 0");
+}
+
+TEST(HostileText, AMarkOfUtf8HidesNoSettingAndUtf16IsNamed) {
+  const std::string mark = "\xEF\xBB\xBF";
+  for (const std::string& text : {"layer_height = 0.1\nperimeters = 2\nfill_density = 15%\n"s,
+                                  "; layer_height = 0.1\n; perimeters = 2\n; fill_density = 15%\n"s,
+                                  "{\"layer_height\": 0.1, \"wall_line_count\": 2}"s}) {
+    const auto profile = parse_profile(mark + text);
+    ASSERT_TRUE(profile) << profile.error().message;
+    EXPECT_EQ(profile->layer_mm, 0.1) << text;
+    EXPECT_EQ(profile->perimeters, 2) << text;
+  }
+  expect_bad_profile("\xFF\xFEp\0"s, "byte 0: the text is UTF-16; ");
+  expect_bad_profile("\xFE\xFF\0p"s, "byte 0: the text is UTF-16; ");
+}
+
+TEST(HostileText, ExpressionsInAProfileAreNotEvaluated) {
+  expect_bad_profile("wall_line_count = 2\nline_width = =machine_nozzle_size * 2\n",
+                     "line 2: line_width is '=machine_nozzle_size * 2', an expression, which is not evaluated; ");
+  expect_bad_profile("{\"wall_line_count\": \"=__import__('os').system('touch x')\"}",
+                     "an expression, which is not evaluated; ");
+  EXPECT_TRUE(parse_profile("wall_line_count = 2\nsupport_angle = =50 + 1\n"));
+}
+
+TEST(HostileText, EveryRefusalOfAProfileNamesARemedy) {
+  for (const std::string& text :
+       {""s, "perimeters = x\nfill_density = 1"s, "perimeters = -1\nfill_density = 1"s, "\xFF\xFE"s})
+    expect_bad_profile(text, "; ");
+  for (const char* path : {"no such.ini", ".."}) {
+    const auto profile = read_profile(path);
+    ASSERT_FALSE(profile);
+    expect_one_line(profile.error(), "; ");
+  }
 }
 
 TEST(HostileText, WhatIsNoProfileIsRefused) {
-  for (const std::string& text : {""s, "\0\0\0"s, "PK\x03\x04"s, repeated("[", 500'000), repeated("{\"a\":", 200'000),
-                                  "{\"perimeters\": [1], \"fill_density\": {}}"s, std::string(1'000'000, '='),
-                                  repeated("a=b\n", 300'000), "\xFF\xFEp\0e\0r\0"s})
+  for (const std::string& text :
+       {""s, "\0\0\0"s, "PK\x03\x04"s, repeated("[", 500'000), repeated("{\"a\":", 200'000),
+        "{\"perimeters\": [1], \"fill_density\": {}}"s, std::string(1'000'000, '='), repeated("a=b\n", 300'000)})
     expect_bad_profile(text, "no profile");
 }
 
@@ -145,8 +184,11 @@ TEST(HostileText, EveryTextFormatIsReadWithAnyLineEndAndAMark) {
       for (const char c : text) other += c == '\n' ? end : std::string(1, c);
       for (const std::string& whole : {other, other + end}) {
         EXPECT_TRUE(read_text(whole, name)) << name << end.size();
-        const bool is_marked = name != std::string_view("a.ply") && read_text("\xEF\xBB\xBF" + whole, name);
-        EXPECT_TRUE(is_marked || name == std::string_view("a.ply")) << name << end.size();
+        const auto marked = read_text("\xEF\xBB\xBF" + whole, name);
+        EXPECT_EQ(marked.has_value(), name != std::string_view("a.ply")) << name << end.size();
+        if (!marked) {
+          EXPECT_NE(marked.error().message.find("byte 0: it does not begin with \"ply\""), std::string::npos);
+        }
       }
       std::string utf16 = "\xFF\xFE";
       for (const char c : other) utf16 += std::string{c, '\0'};

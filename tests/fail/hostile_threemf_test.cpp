@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "support/expect_refused.h"
 #include "support/mesh_files.h"
 #include "support/zip_files.h"
 
@@ -12,10 +13,7 @@ namespace {
 const std::string kGood = model_xml(tetrahedron_object(1), "<item objectid=\"1\"/>");
 
 void expect_error(const std::string& bytes, ErrorCode code, std::string_view words) {
-  const auto file = read_text(bytes, "a.3mf");
-  ASSERT_FALSE(file) << words;
-  EXPECT_EQ(file.error().code, code) << file.error().message;
-  EXPECT_NE(file.error().message.find(words), std::string::npos) << file.error().message;
+  expect_refused(bytes, "a.3mf", words, code);
 }
 
 void expect_unusable_model(const std::string& model, std::string_view words) {
@@ -42,6 +40,59 @@ TEST(HostileThreemf, DocumentTypesAndEntityBombsAreErrors) {
   expect_unusable_model(model, "document type");
   expect_error(package(kGood, {{"Metadata/model_settings.config", bomb + "<config/>"}}), ErrorCode::unusable_input,
                "document type");
+}
+
+/// The good package with other relationships.
+std::string package_related_by(const std::string& relationships) {
+  return zip_of({{"_rels/.rels", relationships, true}, {"3D/3dmodel.model", kGood, true}});
+}
+
+TEST(HostileThreemf, RelationshipsKeepToTheRulesOfEveryPart) {
+  const std::string root =
+      "<Relationships><Relationship Target=\"/3D/3dmodel.model\" Type=\"http://x/3dmodel\"/></Relationships>";
+  EXPECT_TRUE(read_text(package_related_by(root), "a.3mf"));
+  expect_error(package_related_by("<!DOCTYPE r [<!ENTITY a \"aa\">]>" + root), ErrorCode::unusable_input,
+               "part \"_rels/.rels\": it has a document type");
+  std::string open, close;
+  for (int i = 0; i < 1'000'000; ++i) open += "<a>", close += "</a>";
+  expect_error(package_related_by(open), ErrorCode::unusable_input, "part \"_rels/.rels\", byte");
+  EXPECT_TRUE(read_text(package_related_by("<Relationships>" + open + close + root.substr(15)), "a.3mf"));
+  expect_error(package_related_by(std::string(150'000'000, ' ')), ErrorCode::over_budget, "part \"_rels/.rels\"");
+}
+
+TEST(HostileThreemf, WhatASlicerLeftToBeRunIsIgnoredAndSaidToBe) {
+  const auto notes_of = [](const std::string& part) {
+    const auto file = read_text(package(kGood, {{part, "post_process = rm -rf ~"}}), "a.3mf");
+    return file && !file->notes.empty() ? file->notes.front() : "none";
+  };
+  for (const char* settings : {"Metadata/Slic3r_PE.config", "Metadata/project_settings.config", "Cura/preferences.cfg",
+                               "Cura/machine_0.global.cfg", "Metadata/machine_settings_1.json"})
+    EXPECT_NE(notes_of(settings).find("settings in the file (and any scripts in them) were ignored"), std::string::npos)
+        << settings << notes_of(settings);
+  for (const char* program : {"Metadata/plate_1.gcode", "x.GCODE", "Metadata/plate_2.bgcode"})
+    EXPECT_NE(notes_of(program).find("G-code in the file was ignored"), std::string::npos) << program;
+  EXPECT_EQ(notes_of("Metadata/thumbnail.png"), "none");
+}
+
+TEST(HostileThreemf, ALongNameIsCutBetweenTwoCharacters) {
+  const std::string model =
+      model_xml(tetrahedron_object(1, "name=\"" + std::string(999, 'n') + "\xC3\xA4\""), "<item objectid=\"1\"/>");
+  const auto file = read_text(package(model), "a.3mf");
+  ASSERT_TRUE(file) << file.error().message;
+  EXPECT_EQ(file->objects.at(0).name, std::string(999, 'n'));
+}
+
+TEST(HostileThreemf, Utf16AndLatin1AreReadAsTheyDeclareThemselves) {
+  std::string model = model_xml(tetrahedron_object(1, "name=\"B\xE4r\""), "<item objectid=\"1\"/>");
+  model.replace(model.find("UTF-8"), 5, "ISO-8859-1");
+  auto file = read_text(package(model), "a.3mf");
+  ASSERT_TRUE(file) << file.error().message;
+  EXPECT_EQ(file->objects.at(0).name, "B\xC3\xA4r");
+  std::string wide = "\xFF\xFE";
+  for (const char c : kGood) wide.append({c, '\0'});
+  file = read_text(package(wide), "a.3mf");
+  ASSERT_TRUE(file) << file.error().message;
+  EXPECT_EQ(file->objects.at(0).mesh.triangles.size(), 4u);
 }
 
 TEST(HostileThreemf, XmlNestedAMillionDeepIsReadOrRefusedWithoutACrash) {
@@ -103,6 +154,7 @@ TEST(HostileThreemf, VerticesTrianglesTransformsAndUnitsOutOfTheirRangeAreNamed)
   expect_unusable_model(with("x=\"1\"", "x=\"1e39\""), "vertex 1");
   expect_unusable_model(with("x=\"1\"", ""), "vertex 1");
   expect_unusable_model(with("millimeter", "parsec"), "parsec");
+  expect_unusable_model(with("millimeter", "a;b"), "a;b");
   for (const char* transform : {"1 0 0 0 1 0 0 0 1", "0 0 0 0 0 0 0 0 0 0 0 0", "1 0 0 0 1 0 0 0 nan 0 0 0",
                                 "1 0 0 0 1 0 0 0 1 0 0 0 0", "1 0 0 1 0 0 0 0 1 0 0 0"})
     expect_unusable_model(with("objectid=\"1\"", std::string("objectid=\"1\" transform=\"") + transform + "\""),

@@ -10,7 +10,7 @@ namespace aplomb::fuzz {
 
 void check_mesh(std::span<const std::byte> bytes, std::string_view name) {
   const auto file = read_mesh(bytes, name, {.max_triangles = 100'000, .memory_bytes = std::size_t{64} << 20});
-  if (!file) return check_remedy(file.error());
+  if (!file) return check_refusal(file.error(), name);
   promise(!file->objects.empty(), "at least one object");
   for (const MeshObject& object : file->objects) {
     promise(!object.mesh.triangles.empty(), "no object without triangles");

@@ -3,8 +3,10 @@
 #include <cstdio>
 #include <cstdlib>
 #include <string>
+#include <string_view>
 
 #include "aplomb/core/error.h"
+#include "support/refusal.h"
 
 /// What every fuzz target asks of every answer; a broken promise aborts, which the fuzzer takes for a crash.
 namespace aplomb::fuzz {
@@ -28,6 +30,20 @@ inline void check_error(const Error& error) {
 inline void check_remedy(const Error& error) {
   check_error(error);
   promise(error.message.find(';') != std::string::npos, "a remedy: " + error.message);
+}
+
+/// A refusal of a mesh file, as tests ask of it, too.
+inline void check_refusal(const Error& error, std::string_view file_name) {
+  check_error(error);
+  const std::string lack = test::lack_of_refusal(error.message, file_name);
+  promise(lack.empty(), lack + ": " + error.message);
+}
+
+/// The same of an option, whose range is remedy enough: "wall_mm is -1 but must be a number above 0".
+inline void check_remedy_or_range(const Error& error) {
+  if (error.message.find(" must be ") == std::string::npos && error.message.find(" lacks '") == std::string::npos)
+    return check_remedy(error);
+  check_error(error);
 }
 
 }  // namespace aplomb::fuzz

@@ -32,7 +32,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace aplomb;
   const MemoryFile file(data, size);
   auto plate = read_gcode(file.path());
-  if (!plate) return fuzz::check_error(plate.error()), 0;
+  if (!plate) return fuzz::check_remedy(plate.error()), 0;
   for (const std::string& note : plate->notes) fuzz::check_error({ErrorCode::unusable_input, note});
   const auto verified = verify_print(std::move(*plate), {});
   if (!verified) return fuzz::check_error(verified.error()), 0;

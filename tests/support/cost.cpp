@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <string>
@@ -34,9 +35,7 @@ Cost measured(const std::function<void()>& work) {
   return {true, seconds, peak > before ? peak - before : 0};
 }
 
-}  // namespace
-
-Cost cost_of(const std::function<void()>& work) {
+Cost cost_once(const std::function<void()>& work) {
   std::array<int, 2> ends{};
   if (pipe(ends.data()) != 0) return {};
   const pid_t child = fork();
@@ -52,6 +51,18 @@ Cost cost_of(const std::function<void()>& work) {
   int status = 0;
   waitpid(child, &status, 0);
   return cost;
+}
+
+}  // namespace
+
+Cost cost_of(const std::function<void()>& work) {
+  constexpr double long_s = 3;
+  Cost least = cost_once(work);
+  for (int again = 0; again < 2 && least.ended && least.seconds > long_s; ++again) {
+    const Cost cost = cost_once(work);
+    least = {cost.ended, std::min(least.seconds, cost.seconds), std::max(least.peak_bytes, cost.peak_bytes)};
+  }
+  return least;
 }
 
 }  // namespace aplomb::test

@@ -12,6 +12,8 @@ struct Cost {
   std::size_t peak_bytes = 0;  ///< of memory, on top of what the process held before
 };
 
+/// What takes over 3 s is done up to three times, of which the fastest counts: CPU that others slow down, through
+/// caches and memory, only takes longer.
 Cost cost_of(const std::function<void()>& work);
 
 /// Whether memory and time are those of a build for use: sanitizers take several times of both.

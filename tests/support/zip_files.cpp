@@ -98,6 +98,47 @@ std::string zip_of(const std::vector<ZipEntry>& entries) {
   return out;
 }
 
+EndRecord end_record_of(const std::string& zip) {
+  const std::size_t at = zip.rfind("PK\x05\x06");
+  return {number_at(zip, at + 10, 2), number_at(zip, at + 12, 4), number_at(zip, at + 16, 4)};
+}
+
+std::string with_end_records(const std::string& zip, const EndRecord& plain, const std::optional<EndRecord>& zip64) {
+  std::string out = zip.substr(0, zip.rfind("PK\x05\x06"));
+  if (zip64) {
+    const std::size_t record = out.size();
+    out.append("PK\x06\x06");
+    put(out, 44, 8);
+    put(out, 45, 2);
+    put(out, 45, 2);
+    put(out, 0, 8);
+    for (const std::uint64_t value : {zip64->entries, zip64->entries, zip64->size, zip64->offset}) put(out, value, 8);
+    out.append("PK\x06\x07");
+    put(out, 0, 4);
+    put(out, record, 8);
+    put(out, 1, 4);
+  }
+  out.append("PK\x05\x06");
+  put(out, 0, 4);
+  put(out, plain.entries, 2);
+  put(out, plain.entries, 2);
+  put(out, plain.size, 4);
+  put(out, plain.offset, 4);
+  put(out, 0, 2);
+  return out;
+}
+
+std::vector<std::string> names_of_one_hash(int doublings) {
+  std::vector<std::string> names{""};
+  for (int i = 0; i < doublings; ++i) {
+    std::vector<std::string> longer;
+    for (const std::string& name : names)
+      for (const char* pair : {"Bb", "CA"}) longer.push_back(name + pair);
+    names = std::move(longer);
+  }
+  return names;
+}
+
 std::string package(std::string_view model, std::vector<ZipEntry> more) {
   more.push_back({"_rels/.rels",
                   R"(<Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships">)"

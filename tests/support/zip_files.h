@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,20 @@ struct ZipEntry {
 };
 
 std::string zip_of(const std::vector<ZipEntry>& entries);
+
+/// What an end record says of the central directory.
+struct EndRecord {
+  std::uint64_t entries = 0, size = 0, offset = 0;
+};
+
+EndRecord end_record_of(const std::string& zip);
+
+/// The archive with another end record, and with a record of 64 bits and its locator before it where one is given.
+std::string with_end_records(const std::string& zip, const EndRecord& plain,
+                             const std::optional<EndRecord>& zip64 = std::nullopt);
+
+/// 2^doublings names of one hash to libzip 1.7 (h * 33 + c, unseeded).
+std::vector<std::string> names_of_one_hash(int doublings);
 
 /// What an entry of a sound archive holds, deflated or not; throws where there is none.
 std::string part_of(const std::vector<std::byte>& archive, std::string_view name);

@@ -19,7 +19,7 @@ SolidVolume volume_of(const TriangleMesh& mesh) {
   return voxelize(test::solid_of(mesh), {.wall_mm = 2, .voxel_mm = 0.5, .least_void_mm = 0}).value();
 }
 
-double void_mm3(const SolidVolume& volume) { return cut_void(volume, carve_all, 0).field.moments().volume_mm3; }
+double void_mm3(const SolidVolume& volume) { return cut_void(volume, carve_all, 0)->field.moments().volume_mm3; }
 
 TEST(KeptParts, take_their_own_volume_from_the_void) {
   const SolidVolume volume = volume_of(test::box({0, 0, 0}, {40, 40, 40}));
@@ -34,8 +34,8 @@ TEST(KeptParts, take_their_own_volume_from_the_void) {
 TEST(KeptParts, only_ever_take_from_what_may_be_carved) {
   const SolidVolume volume = volume_of(test::sphere({0, 0, 20}, 20, 3));
   const KeptPart half = kept_box({{-30, -30, 20}, {30, 30, 50}});
-  const VoidField all = cut_void(volume, carve_all, 0).field,
-                  lower = cut_void(without(volume, {half}), carve_all, 0).field;
+  const VoidField all = cut_void(volume, carve_all, 0)->field,
+                  lower = cut_void(without(volume, {half}), carve_all, 0)->field;
   EXPECT_NEAR(lower.moments().volume_mm3, all.moments().volume_mm3 / 2, 0.01 * all.moments().volume_mm3);
   EXPECT_LT(lower.moments().first_mm4.z / lower.moments().volume_mm3, 20);
 }
@@ -46,9 +46,9 @@ TEST(WithoutPart, leaves_a_closed_surface_to_whatever_is_carved_next) {
   const double all = void_mm3(volume);
   for (double cut_mm = 17; cut_mm < 21; cut_mm += 0.5) {
     SCOPED_TRACE(cut_mm);
-    const VoidField upper = cut_void(volume, {cut_mm, {-1, 0, 0}}, 0).field;  // carved where x > cut_mm
+    const VoidField upper = cut_void(volume, {cut_mm, {-1, 0, 0}}, 0)->field;  // carved where x > cut_mm
     const SolidVolume lower = without_part(volume, upper, {30, 20, 20}, 1e9);
-    const VoidField rest = cut_void(lower, carve_all, 0).field;
+    const VoidField rest = cut_void(lower, carve_all, 0)->field;
     EXPECT_NEAR(rest.moments().volume_mm3 + upper.moments().volume_mm3, all, 0.03 * all);
     const TriangleMesh mesh = marching_tetrahedra(boundary_cells(rest), rest.frame().voxel_mm, rest.frame().origin_mm);
     EXPECT_TRUE(check_solid(mesh)->solid);

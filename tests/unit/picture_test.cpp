@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <string_view>
 
 #include "aplomb/mesh/mass_properties.h"
 #include "comparison.h"
@@ -152,6 +153,25 @@ TEST(Picture, before_and_after_has_a_row_for_every_pose) {
   EXPECT_EQ(image->height, 2 * 55);
   EXPECT_EQ(as_it_is(box, poses, 50)->width, 100);
   const auto stopped = before_and_after(box, box, poses, 50, {}, Job([](double, std::string_view) { return false; }));
+  ASSERT_FALSE(stopped);
+  EXPECT_EQ(stopped.error().code, ErrorCode::cancelled);
+}
+
+TEST(Picture, is_encoded_with_its_colour_space_and_to_its_end) {
+  const auto bytes = encode_png(Image{2, 1, {255, 0, 0, 0, 0, 255}});
+  ASSERT_TRUE(bytes);
+  const std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+  EXPECT_EQ(text.substr(1, 3), "PNG");
+  EXPECT_NE(text.find("sRGB"), std::string_view::npos);
+  EXPECT_EQ(text.substr(text.size() - 8, 4), "IEND");  // then its check sum
+}
+
+TEST(Picture, that_cannot_be_encoded_says_so_and_one_that_is_stopped_is_cancelled) {
+  const auto empty = encode_png(Image{0, 0, {}});
+  ASSERT_FALSE(empty);
+  EXPECT_EQ(empty.error().code, ErrorCode::third_party);
+  EXPECT_NE(empty.error().message.find("IHDR"), std::string::npos) << empty.error().message;
+  const auto stopped = encode_png(Image{1, 1, {0, 0, 0}}, Job([](double, std::string_view) { return false; }));
   ASSERT_FALSE(stopped);
   EXPECT_EQ(stopped.error().code, ErrorCode::cancelled);
 }

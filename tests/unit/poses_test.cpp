@@ -111,6 +111,27 @@ TEST(JointProblem, IsExceededByNoMeasuredSurplusButForWhatTheDirectionsOfThreads
   EXPECT_GT(overlooked, 0);
 }
 
+TEST(JointProblem, TellsTheAngleOfEachPoseAtItsT) {
+  const TriangleMesh box = test::box({}, {20, 30, 50});
+  const std::vector<Pose> poses{standing_on({0, 0, -1}, 10), standing_on({-1, 0, 0}, 40),
+                                hanging_from({{0, 15, 50}, {20, 15, 50}}, 30)};
+  const JointProblem joint = joint_problem(box, poses, RowKind::nominal).value();
+  for (const Vec3 com : {Vec3{10, 15, 25}, Vec3{4, 15, 25}, Vec3{10, 3, 25}, Vec3{10, 15, 46}}) {
+    const double t = largest_t(joint.problem, Moments{1, com});
+    const Region body{Moments{5, 5.0 * com}, 2};
+    double closest = infinity;
+    for (const Pose& pose : poses) {
+      const auto measure = measure_pose(box, {&body, 1}, pose).value();
+      const double spare = pose.hanging()
+                               ? angle_at_rad(pose, joint, t) - std::get<Hanging>(measure).tilt_rad
+                               : std::get<Standing>(measure).stability.tip_rad - angle_at_rad(pose, joint, t);
+      EXPECT_GE(spare, -1e-12);
+      closest = std::min(closest, spare);
+    }
+    EXPECT_NEAR(closest, 0, 1e-12);
+  }
+}
+
 TEST(JointProblem, OfOnePoseKeepsItsOwnAngle) {
   const TriangleMesh box = test::box({}, {20, 30, 50});
   const Pose pose = standing_on({0, 0, -1}, 10);
@@ -118,6 +139,7 @@ TEST(JointProblem, OfOnePoseKeepsItsOwnAngle) {
   EXPECT_EQ(joint.bound_of, BoundOf::tip);
   EXPECT_EQ(joint.required_t, std::tan(10 * degree));
   EXPECT_NEAR(std::atan(largest_t(joint.problem, moments(box))), std::atan2(10, 25), 1e-14);
+  EXPECT_EQ(angle_at_rad(pose, joint, 0.5), std::atan(0.5));
 }
 
 TEST(Poses, AreRefusedFieldByField) {

@@ -28,6 +28,16 @@ TEST(PrintProfile, ReadsPrusaSlicersOwnRules) {
   EXPECT_EQ(p->infill_pattern, "gyroid");
 }
 
+TEST(PrintProfile, KnowsShellThicknessAsASwitchAndAsAChoice) {
+  for (const auto& [written, expected] : {std::pair{"0", false}, std::pair{"1", true}, std::pair{"disabled", false},
+                                          std::pair{"partial", true}, std::pair{"enabled", true}}) {
+    const auto p = parse_profile(prusaslicer + "ensure_vertical_shell_thickness = " + written + "\n");
+    ASSERT_TRUE(p) << p.error().message;
+    EXPECT_EQ(p->ensures_shell_thickness, expected) << written;
+  }
+  EXPECT_FALSE(parse_profile(prusaslicer + "ensure_vertical_shell_thickness = perhaps\n"));
+}
+
 TEST(PrintProfile, IsTheSameInAnIniAndInTheCommentsOfGcode) {
   std::string comments = "G1 X1 ; move = 1\n";
   for (std::size_t at = 0; at < prusaslicer.size(); at = prusaslicer.find('\n', at) + 1)
@@ -63,10 +73,11 @@ TEST(PrintProfile, WhatMakesNoSenseIsNamed) {
                                    {"{\"a\": 1}", "no profile"},
                                    {"{broken", "no profile"},
                                    {prusaslicer + "layer_height = thin\n", "layer_height is 'thin'"},
-                                   {prusaslicer + "layer_height = 0\n", "layer_mm is 0"},
-                                   {prusaslicer + "fill_density = 120%\n", "infill_ratio is 1.2"},
-                                   {prusaslicer + "perimeters = -1\n", "perimeters is -1"},
-                                   {prusaslicer + "filament_density = -1\n", "density_g_per_cm3 is -1"}}) {
+                                   {prusaslicer + "layer_height = 0\n", "layer_height comes to 0; it must be above 0"},
+                                   {prusaslicer + "fill_density = 120%\n",
+                                    "line 5: fill_density is '120%', which comes to 1.2; it must be from 0 to 100 %"},
+                                   {prusaslicer + "perimeters = -1\n", "line 5: perimeters is '-1'"},
+                                   {prusaslicer + "filament_density = -1\n", "line 5: filament_density is '-1'"}}) {
     const auto p = parse_profile(text);
     ASSERT_FALSE(p) << text;
     EXPECT_EQ(p.error().code, ErrorCode::unusable_input);

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "aplomb/io/read_mesh.h"
+#include "aplomb/mesh/bodies.h"
 #include "aplomb/mesh/repair.h"
 
 namespace aplomb {
@@ -38,8 +39,9 @@ TEST_P(RepairModels, ends_in_a_solid_where_the_model_was_or_in_a_reason_and_its_
     EXPECT_NE(result.error().message.find("--repair force"), std::string::npos) << result.error().message;
     return;
   }
-  const auto& [solid, report] = *result;
+  const auto& [solid, report, prints] = *result;
   EXPECT_TRUE(check_solid(solid.mesh()).value().defects.none());
+  EXPECT_EQ(prints.of_triangle, number_prints(solid.mesh()).value().of_triangle);
   EXPECT_GT(report.volume_after_mm3, 0);
   EXPECT_EQ(report.outer_unchanged, report.method == RepairMethod::none);
   EXPECT_EQ(report.found.none(), report.method == RepairMethod::none);

@@ -24,7 +24,7 @@ struct Carved {
 
 Carved carved(const TriangleMesh& mesh, const VolumeOptions& options, const AffineForm& kept = carve_all) {
   const SolidMesh solid = test::solid_of(mesh);
-  const VoidField field = cut_void(voxelize(solid, options).value(), kept, 10).field;
+  const VoidField field = cut_void(voxelize(solid, options).value(), kept, 10)->field;
   return {solid, field, build_shell(solid, field, {.wall_mm = options.wall_mm}).value()};
 }
 

@@ -4,6 +4,7 @@
 #include <numeric>
 #include <random>
 
+#include "aplomb/mesh/bodies.h"
 #include "aplomb/mesh/solid_mesh.h"
 #include "support/shapes.h"
 
@@ -144,6 +145,20 @@ TEST(CheckSolid, a_body_inside_a_void_is_a_body) {
   ASSERT_TRUE(check.solid);
   EXPECT_EQ(check.solid->bodies(), 2U);
   EXPECT_DOUBLE_EQ(check.solid->moments().volume_mm3, 729 - 343 + 27);
+}
+
+TEST(CheckSolid, its_prints_are_those_that_are_told_of_any_mesh) {
+  TriangleMesh whole = reversed(test::box({2, 2, 2}, {8, 8, 8}));  // a void comes first, then what is in it
+  whole = joined(std::move(whole), test::box({4, 4, 4}, {6, 6, 6}));
+  whole = joined(std::move(whole), test::box({20, 0, 0}, {30, 10, 10}));
+  whole = joined(std::move(whole), test::box({0, 0, 0}, {10, 10, 10}));
+  const SolidCheck check = check_solid(whole).value();
+  ASSERT_TRUE(check.solid);
+  EXPECT_EQ(check.prints.count, 2U);
+  const PrintNumbers told = number_prints(whole).value();
+  EXPECT_EQ(check.prints.count, told.count);
+  EXPECT_EQ(check.prints.of_triangle, told.of_triangle);
+  EXPECT_EQ(check_solid(without_triangle(whole, 0)).value().prints.count, 0U);  // no solid has none
 }
 
 TEST(CheckSolid, neither_order_nor_turning_the_corners_changes_the_defects) {

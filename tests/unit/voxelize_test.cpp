@@ -60,7 +60,7 @@ void expect_exact_distances(const TriangleMesh& mesh, const VolumeOptions& optio
   const SolidVolume volume = volume_of(mesh, options);
   const TriangleMesh surface = rounded_to_float(mesh);
   const double gap = 0.05 * options.voxel_mm + 1e-9, depth = carving_depth_mm(options);
-  const std::vector<CornerCell> cells = boundary_cells(cut_void(volume, carve_all, 0).field);
+  const std::vector<CornerCell> cells = boundary_cells(cut_void(volume, carve_all, 0)->field);
   ASSERT_GT(cells.size(), 100u);
   for (std::size_t n = 0; n < cells.size(); n += 7)
     for (int c = 0; c < 8; ++c) {
@@ -90,7 +90,7 @@ TEST(Voxelize, SamplesExactDistancesWithAWallOfTwoVoxels) {
 TEST(Voxelize, FindsNothingToCarveInWhatIsThinnerThanTwoWalls) {
   const SolidVolume volume = volume_of(test::box({0, 0, 0}, {30, 30, 4}), {.wall_mm = 2, .voxel_mm = 0.5});
   EXPECT_TRUE(carvable_blocks(volume).empty());
-  EXPECT_TRUE(cut_void(volume, carve_all, 0).field.empty());
+  EXPECT_TRUE(cut_void(volume, carve_all, 0)->field.empty());
 }
 
 TEST(Voxelize, GivesTheSameRegionWhereverTheSolidLies) {

@@ -4,8 +4,13 @@
 #include <algorithm>
 
 #include <CLI/CLI.hpp>
+#include <iostream>
+#include <sstream>
 
+#include "aplomb/core/printable.h"
 #include "flags.h"
+#include "outputs.h"
+#include "talk.h"
 
 namespace aplomb::cli {
 namespace {
@@ -21,7 +26,7 @@ std::vector<std::pair<std::string, std::string>> flags_given(const CLI::App& app
 }
 
 int usage_error(const std::string& problem) {
-  fmt::print(stderr, "aplomb: {}\n", problem);
+  fmt::print(stderr, "aplomb: {}\n", printable(problem, longest_message));
   return usage_exit;
 }
 
@@ -75,7 +80,7 @@ void add_flags(Command command, CLI::App* app, Arguments& a, StandingPose& stand
 }
 
 Parsed finish_verify(Arguments a) {
-  for (const std::string& problem : {find_problem(a.verify.gcode), find_problem(a.verify.options)})
+  for (const std::string& problem : {find_problem(a.verify.gcode), find_problem(a.verify.options), find_clash(a)})
     if (!problem.empty()) return {std::nullopt, usage_error(problem)};
   return {std::move(a), 0};
 }
@@ -110,7 +115,10 @@ Parsed parse_arguments(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return {std::nullopt, app.exit(error) == 0 ? 0 : usage_exit};
+    std::stringstream said;  // of words that a pattern of names may have brought
+    const int code = app.exit(error, std::cout, said);
+    for (std::string line; std::getline(said, line);) fmt::print(stderr, "{}\n", printable(line, longest_message));
+    return {std::nullopt, code == 0 ? 0 : usage_exit};
   }
   for (const auto& [command, sub] : commands)
     if (sub->parsed()) a.command = command, a.given = flags_given(*sub);
@@ -126,11 +134,13 @@ Parsed parse_arguments(int argc, char** argv) {
       return {std::nullopt, job.error().code == ErrorCode::file_system ? unusable_exit : usage_exit};
     }
     a.given.emplace_back("job", overrides.file.string());
+    a.job_file = overrides.file;
     a.job = std::move(*job);
   }
   a.job.input.repair.step_memory_mb =
       std::clamp<std::size_t>(a.job.options.memory_bytes >> 20, 1, a.job.input.repair.step_memory_mb);
-  if (const std::string problem = find_problem(a.job); !problem.empty()) return {std::nullopt, usage_error(problem)};
+  for (const std::string& problem : {find_problem(a.job), find_clash(a)})
+    if (!problem.empty()) return {std::nullopt, usage_error(problem)};
   return {std::move(a), 0};
 }
 

@@ -35,6 +35,7 @@ struct Arguments {
   JobFile job;  ///< without an output the poses are only checked
   VerifyArguments verify;
   std::filesystem::path save_job;  ///< where to write `job`; empty: nowhere
+  std::filesystem::path job_file;  ///< where `job` was read; empty: the flags say it
   std::optional<double> time_s;    ///< after which it ends, whatever it is at; none: the job's
   bool quiet = false;
   bool is_progress_json = false;                           ///< told as lines of JSON, also where there is no terminal

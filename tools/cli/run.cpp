@@ -147,7 +147,7 @@ Result<void> draw(const Arguments& a, const Input& input, const StandRun* made, 
                                                      inserts_as_solid(made->inserts, options))
                          : picture::as_it_is(before, options.poses, picture_size, {}, job);
   if (!image) return tl::unexpected(image.error());
-  const auto bytes = picture::encode_png(*image);
+  const auto bytes = picture::encode_png(*image, job);
   if (!bytes) return tl::unexpected(bytes.error());
   return write_file_atomically(a.job.picture, *bytes, remember_temp_file);
 }

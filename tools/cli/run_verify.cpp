@@ -13,8 +13,8 @@ namespace {
 
 Result<ExpectedPrint> read_expected(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
-  if (!file) return fail(ErrorCode::file_system, path.string() + ": the report cannot be read");
-  constexpr std::streamsize most_bytes = 64 << 20;
+  if (!file) return fail(ErrorCode::file_system, path.string() + ": the report cannot be read; check its name");
+  constexpr std::streamsize most_bytes = (4 << 20) + 1;  // one more than a report may have
   std::string text(most_bytes, '\0');
   file.read(text.data(), most_bytes);
   text.resize(static_cast<std::size_t>(file.gcount()));

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <span>
 
+#include "aplomb/core/printable.h"
 #include "aplomb/io/atomic_file.h"
 #include "interrupt.h"
 #include "run.h"
@@ -17,7 +18,7 @@ int report_error(const Error& error) {
     fmt::print(stderr, "aplomb: the time is over (--time)\n");
     return exit_code(Ending::over_budget);
   }
-  fmt::print(stderr, "aplomb: {}\n", error.message);
+  fmt::print(stderr, "aplomb: {}\n", printable(error.message, longest_message));
   return exit_code(ending_of(error));
 }
 

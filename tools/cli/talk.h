@@ -15,6 +15,10 @@ namespace aplomb::cli {
 
 inline int exit_code(Ending ending) { return static_cast<int>(ending); }
 
+/// Of a message, in bytes: the longest path and a sentence. What names a file may hold anything but a zero, so that
+/// printable() has the last word on what goes to the terminal.
+inline constexpr std::size_t longest_message = 6000;
+
 /// Says it on standard error. \return the exit code.
 int report_error(const Error& error);
 

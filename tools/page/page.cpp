@@ -86,8 +86,9 @@ Marks marks_of(const PageContent& content) {
   return found;
 }
 
-Result<std::string> figure_of(const picture::Image& image, const std::string& about, const std::string& caption = "") {
-  const auto png = picture::encode_png(image);
+Result<std::string> figure_of(const picture::Image& image, const Job& job, const std::string& about,
+                              const std::string& caption = "") {
+  const auto png = picture::encode_png(image, job);
   if (!png) return tl::unexpected(png.error());
   return fmt::format("<figure><img alt=\"{}\" src=\"data:image/png;base64,{}\">{}</figure>\n", about, base64(*png),
                      caption);
@@ -98,7 +99,7 @@ Result<std::string> stresses(const PageContent& content, const Job& job) {
   const StressField& field = *content.judgement->stress;
   const auto image = picture::stress_picture(field, picture_size, job);
   if (!image) return tl::unexpected(image.error());
-  return figure_of(*image, "The model from the front and from behind, darker where it is stressed more")
+  return figure_of(*image, job, "The model from the front and from behind, darker where it is stressed more")
       .map([&](const std::string& figure) {
         return fmt::format(
             "<h2>Where it is stressed</h2>\n{}<p>Under its own weight and a push of 10 N at its top, "
@@ -115,7 +116,7 @@ Result<std::string> pictures(const PageContent& content, const std::vector<pictu
                          : picture::as_it_is(content.after ? *content.after : *content.before, content.poses,
                                              picture_size, marks, job);
   if (!image) return tl::unexpected(image.error());
-  return figure_of(*image, "The model, cut open and whole, with its centre of mass and support polygon",
+  return figure_of(*image, job, "The model, cut open and whole, with its centre of mass and support polygon",
                    marks.empty() ? "" : "<figcaption>Rings: places of what is listed below, by number.</figcaption>");
 }
 

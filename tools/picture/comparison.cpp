@@ -48,22 +48,32 @@ class Row {
   Result<Image> draw(const std::string& name, const Job& job) const {
     const Posed &first = figures_.front(), &last = figures_.back();
     const std::string head = name.empty() ? "" : name + ": ";
+    const bool is_pair = figures_.size() > 1;
+    struct Wanted {
+      const Posed& figure;
+      bool is_open;
+      std::string text;
+    };
+    std::vector<Wanted> wanted;
+    if (is_pair) wanted.push_back({first, false, head + "before: " + first.verdict});
+    wanted.push_back({last, true, "inside"});
+    wanted.push_back({last, false, (is_pair ? "after: " : head) + last.verdict});
     std::vector<Panel> panels;
-    if (!job.report(0, "picture")) return cancelled();
-    if (figures_.size() > 1) panels.push_back({picture_of(first, false), head + "before: " + first.verdict});
-    if (!job.report(0.3, "picture")) return cancelled();
-    panels.push_back({picture_of(last, true), "inside"});
-    if (!job.report(0.6, "picture")) return cancelled();
-    panels.push_back({picture_of(last, false), (figures_.size() > 1 ? "after: " : head) + last.verdict});
+    for (const Wanted& panel : wanted) {
+      const double from = double(panels.size()) / double(wanted.size());
+      auto image = picture_of(panel.figure, panel.is_open, job.part(from, from + 1.0 / double(wanted.size())));
+      if (!image) return image;
+      panels.push_back({std::move(*image), panel.text});
+    }
     return side_by_side(panels);
   }
 
  private:
-  Image picture_of(const Posed& figure, bool is_open) const {
+  Result<Image> picture_of(const Posed& figure, bool is_open, const Job& job) const {
     View view = view_;
     view.frame_mm = frame_for(bounding_box(figure.subject.mesh), size_);
     if (is_open) view.cut = section_along(*figure.subject.com_mm, figures_.front().heading, view.azimuth_rad);
-    return render(figure.subject, view).image;
+    return render(figure.subject, view, job).map([](Rendering drawn) { return std::move(drawn.image); });
   }
 
   std::vector<Posed> figures_;

@@ -44,20 +44,24 @@ Camera camera_towards(Vec3 back) {
   return camera;
 }
 
-Lights::Lights(const TriangleMesh& mesh, Vec3 key, const std::optional<Cut>& cut) {
+Lights::Lights(const TriangleMesh& mesh, Vec3 key, const std::optional<Cut>& cut, const Job& job) {
+  const auto goes_on = [&] { return job.report(double(lamps_.size()) / (key_lamps + sky_lamps), "picture"); };
   const Camera around = camera_towards(normalized(key));
   for (int i = 0; i < key_lamps; ++i) {
+    if (!goes_on()) return;
     const double r = 0.16 * std::sqrt((i + 0.5) / key_lamps), a = golden_rad * i;
     const Vec3 to = normalized(around.back + r * std::cos(a) * around.right + r * std::sin(a) * around.up);
     constexpr float share = 1.0F / key_lamps;
     lamps_.push_back(lamp(mesh, to, {1.02F * share, 0.98F * share, 0.90F * share}, cut));
   }
   for (int i = 0; i < sky_lamps; ++i) {
+    if (!goes_on()) return;
     const double z = (i + 0.5) / sky_lamps, r = std::sqrt(1 - z * z), a = golden_rad * i;
     constexpr float share = 2.0F / sky_lamps;
     lamps_.push_back(
         lamp(mesh, {r * std::cos(a), r * std::sin(a), z}, {0.36F * share, 0.38F * share, 0.43F * share}, cut));
   }
+  is_complete_ = true;
 }
 
 bool Lights::reaches(const Lamp& lamp, Vec3 point, Vec3 normal) const {

@@ -19,7 +19,9 @@ struct Lamp {
 /// What a cut takes away gives no shadow.
 class Lights {
  public:
-  Lights(const TriangleMesh& mesh, Vec3 key, const std::optional<Cut>& cut);
+  /// Without some of them where the job says no; see is_complete().
+  Lights(const TriangleMesh& mesh, Vec3 key, const std::optional<Cut>& cut, const Job& job = {});
+  bool is_complete() const { return is_complete_; }
 
   /// The light that arrives at a point, by the share'th of `shares` interleaved subsets of the lamps.
   Colour at(Vec3 point, Vec3 normal, std::size_t share, std::size_t shares) const;
@@ -30,6 +32,7 @@ class Lights {
   bool reaches(const Lamp& lamp, Vec3 point, Vec3 normal) const;
 
   std::vector<Lamp> lamps_;
+  bool is_complete_ = false;
 };
 
 }  // namespace aplomb::picture

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "aplomb/core/error.h"
+#include "aplomb/core/job.h"
 #include "aplomb/core/vec.h"
 #include "aplomb/mesh/triangle_mesh.h"
 
@@ -69,8 +70,9 @@ struct Rendering {
 /// where the winding number is positive and hatched, voids' surfaces in their own colour.
 ///
 /// \pre  view.width and height > 0; a cut's normal is not zero and has the viewer on its side.
-/// \par Cost  About 2 s of CPU for 900 x 900 pixels and 50k triangles.
-Rendering render(const Subject& subject, const View& view);
+/// \return cancelled. \par Cost  About 2 s of CPU for 900 x 900 pixels and 50k triangles.
+Result<Rendering> render(const Subject& subject, const View& view, const Job& job);
+inline Rendering render(const Subject& subject, const View& view) { return *render(subject, view, {}); }
 
 /// The subject as it lies after falling over an edge of its support polygon: turned about it until another part of it
 /// reaches the plate. `share` of 1 is all the way; less stops on the way.
@@ -93,8 +95,8 @@ Image side_by_side(const std::vector<Panel>& panels);
 /// One under another, all of one width. \pre Not empty.
 Image one_below_another(const std::vector<Image>& rows);
 
-/// The bytes of a PNG file. \return third_party.
-Result<std::vector<std::byte>> encode_png(const Image& image);
+/// The bytes of a PNG file. \return cancelled, third_party.
+Result<std::vector<std::byte>> encode_png(const Image& image, const Job& job = {});
 
 /// \return file_system.
 Result<void> write_png(const std::string& path, const Image& image);

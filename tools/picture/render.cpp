@@ -117,18 +117,20 @@ Camera framed(const Subject& subject, const View& view) {
 /// Draws one subject from one view.
 class Drawing {
  public:
-  Drawing(const Subject& subject, const View& view)
+  Drawing(const Subject& subject, const View& view, const Job& job)
       : subject_(subject),
         view_(view),
         box_(bounding_box(subject.mesh)),
         camera_(framed(subject, view)),
         normals_(corner_normals(subject.mesh)),
         bounds_void_(void_triangles(subject.mesh)),
-        lights_(subject.mesh, key_direction(), view.cut) {
+        lights_(subject.mesh, key_direction(), view.cut, job.part(0, 0.3)),
+        job_(job.part(0.3, 1)) {
     if (view.cut) cut_ = Cut{view.cut->point_mm, normalized(view.cut->normal)};
   }
 
-  Rendering rendering() {
+  Result<Rendering> rendering() {
+    if (!lights_.is_complete()) return cancelled();
     collect();
     Rendering out;
     out.image = {view_.width, view_.height, std::vector<std::uint8_t>(pixels() * 3)};
@@ -136,6 +138,7 @@ class Drawing {
     out.figure_share.assign(pixels(), 0);
     out.cut_share.assign(pixels(), 0);
     for (int y = 0; y < view_.height; ++y) {
+      if (!job_.report(double(y) / view_.height, "picture")) return cancelled();
       for (int x = 0; x < view_.width; ++x) resolve(x, y, out);
     }
     annotate(out.image);
@@ -280,13 +283,16 @@ class Drawing {
   std::vector<std::array<Vec3, 3>> normals_;
   std::vector<char> bounds_void_;
   Lights lights_;
+  Job job_;
   Samples samples_;
   std::optional<Cut> cut_;
 };
 
 }  // namespace
 
-Rendering render(const Subject& subject, const View& view) { return Drawing(subject, view).rendering(); }
+Result<Rendering> render(const Subject& subject, const View& view, const Job& job) {
+  return Drawing(subject, view, job).rendering();
+}
 
 Subject toppled(Subject subject, Vec2 from, Vec2 to, double share) {
   const Vec2 along = (1 / norm(to - from)) * (to - from);

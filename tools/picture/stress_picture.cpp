@@ -60,11 +60,12 @@ Result<Image> stress_picture(const StressField& field, int size, const Job& job)
     subject.vertex_shares.push_back(static_cast<float>(stress / field.measured_mpa));
   std::vector<Panel> panels;
   for (const bool is_front : {true, false}) {
-    if (!job.report(is_front ? 0 : 0.5, "picture")) return cancelled();
     View view;
     view.width = view.height = size;
     view.azimuth_rad = is_front ? -1.0 : std::numbers::pi - 1.0;
-    panels.push_back({render(subject, view).image, is_front ? "front" : "back"});
+    auto drawn = render(subject, view, is_front ? job.part(0, 0.5) : job.part(0.5, 1));
+    if (!drawn) return tl::unexpected(drawn.error());
+    panels.push_back({std::move(drawn->image), is_front ? "front" : "back"});
   }
   panels.push_back({legend(2 * size / 5, size, field.measured_mpa), ""});
   return side_by_side(panels);

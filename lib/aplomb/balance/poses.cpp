@@ -56,6 +56,11 @@ Result<JointProblem> joint_problem(const TriangleMesh& outer, std::span<const Po
   return joint;
 }
 
+double angle_at_rad(const Pose& pose, const JointProblem& joint, double t) {
+  const double own_t = joint.bound_of == BoundOf::surplus ? t + t_of(pose) : t;
+  return pose.hanging() ? -std::atan(own_t) : std::atan(own_t);
+}
+
 Result<PoseMeasure> measure_pose(const TriangleMesh& outer, std::span<const Region> body, const Pose& pose) {
   if (const HangingPose* hanging = pose.hanging()) return measure_hanging(body, *hanging);
   auto standing = measure_standing(outer, body, *pose.standing());

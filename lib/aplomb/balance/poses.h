@@ -55,6 +55,12 @@ struct JointProblem {
 /// \return as support_polygon.
 Result<JointProblem> joint_problem(const TriangleMesh& outer, std::span<const Pose> poses, RowKind kind);
 
+/// What every body that holds the joint problem at t reaches in one of its poses: a tip angle that is no smaller, or a
+/// tilt that is no larger (from one thread: but for the 2 % that sixteen directions overlook).
+///
+/// \pre `joint` is of poses among which `pose` is.
+double angle_at_rad(const Pose& pose, const JointProblem& joint, double t);
+
 /// How a body holds in a pose: Standing of a standing one, Hanging of a hanging one.
 using PoseMeasure = std::variant<Standing, Hanging>;
 

@@ -7,6 +7,7 @@
 
 #include "aplomb/carve/moment_tree.h"
 #include "aplomb/carve/plane_search.h"
+#include "aplomb/core/pulse.h"
 
 namespace aplomb {
 namespace {
@@ -22,12 +23,14 @@ BestBody best_body(const Moments& solid, const MomentTree& tree) {
 /// One carving of one volume; another round follows when parts were dropped.
 class Carver {
  public:
-  Carver(const SolidVolume& volume, const Moments& solid, const BalanceProblem& problem, const CarveOptions& options)
+  /// Where the pulse stopped, of no use.
+  Carver(const SolidVolume& volume, const Moments& solid, const BalanceProblem& problem, const CarveOptions& options,
+         const Pulse& pulse)
       : volume_(volume),
         solid_(solid),
         problem_(problem),
         options_(options),
-        tree_(carvable_blocks(volume), volume.frame()),
+        tree_(carvable_blocks(volume, pulse), volume.frame()),
         search_(problem, best_body(solid, tree_), solid) {}
 
   Result<VoidCut> choose(Carving& carving, const Job& job) {
@@ -35,15 +38,17 @@ class Carver {
     if (!stable) return tl::unexpected(stable.error());
     carving.bound_t = stable->bound;
     carving.planes += search_.planes();
-    if (options_.aim == CarveAim::stable || stable->bound < options_.required_t) return cut(*stable, carving);
+    if (options_.aim == CarveAim::stable || stable->bound < options_.required_t)
+      return cut(*stable, carving, job.part(0, 0.3));
     return meet_requirement(*stable, carving, job.part(0.3, 1));
   }
 
  private:
-  VoidCut cut(const PlaneChoice& plane, Carving& carving) const {
-    VoidCut cut = cut_void(volume_, plane.kept, options_.least_volume_mm3);
+  Result<VoidCut> cut(const PlaneChoice& plane, Carving& carving, const Job& job) const {
+    auto cut = cut_void(volume_, plane.kept, options_.least_volume_mm3, job);
+    if (!cut) return cut;
     carving.kept = plane.kept;
-    carving.body = solid_ - cut.field.moments();
+    carving.body = solid_ - cut->field.moments();
     carving.t = largest_t(problem_, carving.body);
     return cut;
   }
@@ -53,22 +58,23 @@ class Carver {
   Result<VoidCut> meet_requirement(const PlaneChoice& stable, Carving& carving, const Job& job) {
     const VolumeAim aim = options_.aim == CarveAim::least ? VolumeAim::most : VolumeAim::least;
     double asked = options_.required_t;
-    std::optional<VoidCut> result;
+    Result<VoidCut> result;
     for (int round = 0; round < most_rounds; ++round) {
       const int planes_before = search_.planes();
-      const auto plane = search_.extreme_volume(aim, std::min(asked, stable.t), stable,
-                                                job.part(double(round) / most_rounds, (round + 1.0) / most_rounds));
+      const Job part = job.part(double(round) / most_rounds, (round + 1.0) / most_rounds);
+      const auto plane = search_.extreme_volume(aim, std::min(asked, stable.t), stable, part);
       if (!plane) return tl::unexpected(plane.error());
       carving.planes += search_.planes() - planes_before;
       if (round == 0) carving.volume_bound_mm3 = solid_.volume_mm3 - plane->bound;
-      result = cut(*plane, carving);
+      result = cut(*plane, carving, part);
+      if (!result) return result;
       const double missing = options_.required_t - carving.t;
       if (std::abs(missing) <= t_tolerance || (missing > 0 && asked >= stable.t)) break;
       if (missing < 0 && plane->t > asked + t_tolerance) break;  // the angle is no limit
       asked += missing;
     }
-    if (carving.t < options_.required_t - t_tolerance) result = cut(stable, carving);
-    return std::move(*result);
+    if (carving.t < options_.required_t - t_tolerance) result = cut(stable, carving, job);
+    return result;
   }
 
   const SolidVolume& volume_;
@@ -95,8 +101,11 @@ Result<Carving> carve(const SolidVolume& volume, const Moments& solid, const Bal
   carving.body = solid;
   SolidVolume allowed = volume;
   for (int round = 0; round < most_rounds; ++round) {
-    Carver carver(allowed, solid, problem, options);
-    auto cut = carver.choose(carving, job.part(double(round) / most_rounds, (round + 1.0) / most_rounds));
+    const Job part = job.part(double(round) / most_rounds, (round + 1.0) / most_rounds);
+    const Pulse pulse(part, 0, "carve");
+    Carver carver(allowed, solid, problem, options, pulse);
+    if (pulse.stopped()) return cancelled();
+    auto cut = carver.choose(carving, part);
     if (!cut) return tl::unexpected(cut.error());
     carving.field = cut->field;
     carving.dropped_parts += cut->dropped_parts;
@@ -111,7 +120,9 @@ Result<Carving> carve(const SolidVolume& volume, const Moments& solid, const Bal
 
 Result<double> carving_bound(const SolidVolume& volume, const Moments& solid, const BalanceProblem& problem,
                              double tolerance, const Job& job) {
-  const MomentTree tree(carvable_blocks(volume), volume.frame());
+  const Pulse pulse(job, 0, "carve");
+  const MomentTree tree(carvable_blocks(volume, pulse), volume.frame());
+  if (pulse.stopped()) return cancelled();
   PlaneSearch search(problem, best_body(solid, tree), solid);
   const auto stable = search.most_stable(tolerance, job);
   if (!stable) return tl::unexpected(stable.error());

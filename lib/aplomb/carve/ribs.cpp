@@ -248,14 +248,16 @@ KeptPart rib_part(const Family& family, double middle, const Rib& rib, const Rib
 
 }  // namespace
 
-ColumnCosts::ColumnCosts(const SolidVolume& volume, const AffineForm& kept) : frame_(volume.frame()) {
-  const std::vector<CarvableBlock> blocks = carvable_blocks(volume);
+ColumnCosts::ColumnCosts(const SolidVolume& volume, const AffineForm& kept, const Pulse& pulse)
+    : frame_(volume.frame()) {
+  const std::vector<CarvableBlock> blocks = carvable_blocks(volume, pulse);
   for (const CarvableBlock& block : blocks) {
     columns_ = std::max(columns_, block.origin[0] + CarvableBlock::size);
     rows_ = std::max(rows_, block.origin[1] + CarvableBlock::size);
   }
   in_order_.assign(static_cast<std::size_t>(columns_) * rows_, {});
-  for (const CarvableBlock& block : blocks)
+  for (const CarvableBlock& block : blocks) {
+    if (!pulse.goes_on(5)) return;
     for (int cell = 0; cell < CarvableBlock::cells; ++cell) {
       const double share = block.shares.empty() ? 1 : block.shares[cell];
       const int i = block.origin[0] + cell / 64, j = block.origin[1] + cell / 8 % 8, k = block.origin[2] + cell % 8;
@@ -268,6 +270,7 @@ ColumnCosts::ColumnCosts(const SolidVolume& volume, const AffineForm& kept) : fr
       column.top_mm = column.cost > 0 ? std::max(column.top_mm, above) : above;
       column.cost -= share * l * frame_.voxel_mm;
     }
+  }
 }
 
 ColumnCosts::Column ColumnCosts::at(Vec2 point) const {

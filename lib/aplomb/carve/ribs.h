@@ -5,6 +5,7 @@
 #include "aplomb/balance/balance_problem.h"
 #include "aplomb/carve/flat_ceilings.h"
 #include "aplomb/carve/kept_parts.h"
+#include "aplomb/core/pulse.h"
 #include "aplomb/volume/solid_volume.h"
 
 namespace aplomb {
@@ -16,7 +17,8 @@ namespace aplomb {
 /// which is, at first order, what the linear program loses by it (the reduced cost at its dual).
 class ColumnCosts {
  public:
-  ColumnCosts(const SolidVolume& volume, const AffineForm& kept);
+  /// Where the pulse stopped, of no use.
+  ColumnCosts(const SolidVolume& volume, const AffineForm& kept, const Pulse& pulse = {});
 
   struct Column {
     double cost = 0;      ///< per mm2 of plan

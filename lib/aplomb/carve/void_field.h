@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "aplomb/balance/balance_problem.h"
+#include "aplomb/core/error.h"
+#include "aplomb/core/pulse.h"
 #include "aplomb/mesh/marching_tetrahedra.h"
 #include "aplomb/volume/solid_volume.h"
 
@@ -41,13 +43,15 @@ struct VoidCut {
 /// Carves where `kept` is not positive: phi_void = max(phi, kept / |gradient|), opened by a ball of the volume's
 /// least_void_mm (up to half a voxel, so that sharp edges of a void stay sharp), without the parts smaller than
 /// `least_volume_mm3`. The maximum only ever raises phi, so that the wall's guarantee holds for every such void.
-VoidCut cut_void(const SolidVolume& volume, const AffineForm& kept, double least_volume_mm3);
+/// \return cancelled.
+Result<VoidCut> cut_void(const SolidVolume& volume, const AffineForm& kept, double least_volume_mm3,
+                         const Job& job = {});
 
 /// The same volume, where the part of a void that hangs together with a point of it, below a height, may no longer be
 /// carved. Nothing changes where the seed lies outside the void.
 SolidVolume without_part(const SolidVolume& volume, const VoidField& field, Vec3 seed_mm, double below_mm);
 
-/// The cells in which the field changes sign, for marching_tetrahedra().
-std::vector<CornerCell> boundary_cells(const VoidField& field);
+/// The cells in which the field changes sign, for marching_tetrahedra(). Where the pulse stopped, not all of them.
+std::vector<CornerCell> boundary_cells(const VoidField& field, const Pulse& pulse = {});
 
 }  // namespace aplomb

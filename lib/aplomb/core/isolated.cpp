@@ -6,6 +6,7 @@
 #endif
 
 #include <fcntl.h>
+#include <locale.h>
 #include <poll.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -49,10 +50,11 @@ void write_all(int file, const char* bytes, std::size_t count) {
   }
 }
 
-void confine(const IsolationLimits& limits, std::size_t parent_bytes) {
+void confine(const IsolationLimits& limits, std::size_t parent_bytes, [[maybe_unused]] pid_t parent) {
   std::set_new_handler(nullptr);  // the program's own would end the child without a word
 #ifdef __linux__
   prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(1);  // it died before that was said
 #endif
   for (const int signal : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGTERM}) std::signal(signal, SIG_DFL);
   std::signal(SIGINT, SIG_IGN);  // the parent decides
@@ -69,6 +71,8 @@ void confine(const IsolationLimits& limits, std::size_t parent_bytes) {
 }
 
 [[noreturn]] void work_in_child(const std::function<std::string()>& work, int out) {
+  // Libraries read numbers by strtod(), which a host's locale may have taught to end at a point.
+  uselocale(newlocale(LC_ALL_MASK, "C", nullptr));
   Ending ending = Ending::result;
   std::string bytes;
   try {
@@ -123,6 +127,8 @@ Result<std::string> received(const std::string& bytes, int status) {
   if (WIFSIGNALED(status))
     return fail(ErrorCode::third_party, "the work crashed (" + std::string(strsignal(WTERMSIG(status))) + ")");
   if (bytes.empty()) return fail(ErrorCode::third_party, "the work ended without a word");
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+    return fail(ErrorCode::third_party, "the work ended before all was said");
   const Ending ending{bytes[0]};
   std::string rest = bytes.substr(1);
   if (ending == Ending::out_of_memory) return fail(ErrorCode::over_budget, "the work ran out of the memory allowed");
@@ -140,11 +146,11 @@ Result<std::string> run_isolated(const std::function<std::string()>& work, const
   FileDescriptor in{ends[0]}, out{ends[1]};
   const std::size_t parent_bytes = address_space_bytes();
   std::fflush(nullptr);
-  const pid_t id = fork();
+  const pid_t parent = getpid(), id = fork();
   if (id < 0) return fail(ErrorCode::third_party, "no process to be had from the system");
   if (id == 0) {
     close(in.number);
-    confine(limits, parent_bytes);
+    confine(limits, parent_bytes, parent);
     work_in_child(work, out.number);
   }
   Child child(id);

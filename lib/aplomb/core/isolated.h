@@ -16,7 +16,8 @@ struct IsolationLimits {
 };
 
 /// Runs work that may crash, never end or eat all memory in a forked child, and returns the bytes it made. What the
-/// child writes to stdout and stderr is lost. The child has no thread but its own: work must not use a thread pool.
+/// child writes to stdout and stderr is lost. It has the locale "C" and no thread but its own: work must not use a
+/// pool.
 ///
 /// \return cancelled within 50 ms of job's word; over_budget when a limit was passed; third_party when the work threw
 ///         or crashed, with the reason.

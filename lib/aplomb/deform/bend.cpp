@@ -10,7 +10,7 @@
 namespace aplomb {
 namespace {
 
-constexpr std::array<double, 6> path_ratios{1, 0.9, 0.75, 0.5, 0.25, 0.1};
+constexpr std::array<double, 7> path_ratios{1, 0.9, 0.75, 0.5, 0.25, 0.1, 0};  // at 0 it is as it came: a solid
 
 double lowest_mm(const TriangleMesh& mesh, Vec3 up) {
   double lowest = std::numeric_limits<double>::infinity();
@@ -127,7 +127,7 @@ Result<Bent> Bender::bend(double required_t, const DeformOptions& options, const
     }
     return bent;
   }
-  return fail(ErrorCode::third_party, "the surface crosses itself however little it is bent");
+  return fail(ErrorCode::internal, "the surface crosses itself where nothing bends it");
 }
 
 }  // namespace aplomb

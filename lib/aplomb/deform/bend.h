@@ -39,7 +39,7 @@ std::vector<bool> vertices_near_plate(const TriangleMesh& mesh, Vec3 up, double 
 struct Bent {
   SolidMesh solid;        ///< triangles and order of vertices as they were
   CageDeformation cage;   ///< what the cage does; of the path that was found
-  double path_ratio = 1;  ///< how far along it the surface went: less than 1 where it would have crossed itself
+  double path_ratio = 1;  ///< how far along it the surface went: less than 1, or 0, where it would have crossed itself
   double mean_mm = 0;     ///< displacement of the surface's vertices
   double max_mm = 0;
   double handle_short_mm = 0;  ///< how far a pulled handle is from where it was to go
@@ -54,10 +54,10 @@ class Bender {
   static Result<Bender> make(const SolidMesh& solid, const BendProblem& problem, const CageOptions& options,
                              const Job& job = {});
 
-  /// The solid bent until every row holds at required_t, or as far as the options allow. No point of the surface ends
-  /// below a plate.
+  /// The solid bent until every row holds at required_t, or as far as the options and what would cross itself allow. No
+  /// point of the surface ends below a plate.
   ///
-  /// \return cancelled; third_party when even a small bend makes the surface cross itself.
+  /// \return what deform_cage() and check_solid() return.
   Result<Bent> bend(double required_t, const DeformOptions& options, const Job& job = {}) const;
 
  private:

@@ -3,82 +3,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <fstream>
-#include <map>
-#include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
+#include <utility>
+#include <vector>
 
-#include "aplomb/core/printable.h"
+#include "aplomb/fdm/profile_settings.h"
 
 namespace aplomb {
 namespace {
 
-using Settings = std::map<std::string, std::string, std::less<>>;
+using Reader = detail::SettingsReader;
 
-constexpr std::string_view blanks = " \t\r;";
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(blanks);
-  if (first == text.npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
-/// "name = value" lines; a comment's semicolon is left out.
-Settings settings_in_lines(std::string_view text) {
-  Settings settings;
-  while (!text.empty()) {
-    const std::string_view line = text.substr(0, text.find('\n'));
-    text.remove_prefix(std::min(text.size(), line.size() + 1));
-    const std::size_t equals = line.find('=');
-    if (equals == line.npos || equals > 80) continue;
-    settings.insert_or_assign(std::string(trimmed(line.substr(0, equals))),
-                              std::string(trimmed(line.substr(equals + 1))));
-  }
-  return settings;
-}
-
-Settings settings_in_json(std::string_view text) {
-  Settings settings;
-  const auto json = nlohmann::json::parse(text, nullptr, false);
-  if (!json.is_object()) return settings;
-  for (const auto& [name, value] : json.items())
-    if (value.is_primitive()) settings[name] = value.is_string() ? value.get<std::string>() : value.dump();
-  return settings;
-}
-
-/// Settings by name, as numbers; the first that cannot be read is remembered.
-class Reader {
- public:
-  explicit Reader(const Settings& settings) : settings_(settings) {}
-
-  bool has(std::string_view name) const { return settings_.find(name) != settings_.end(); }
-  std::string text(std::string_view name, std::string_view otherwise) const {
-    const auto found = settings_.find(name);
-    return found == settings_.end() ? std::string(otherwise) : found->second;
-  }
-  /// The first of a list by tool; shares are of `whole`.
-  double number(std::string_view name, double otherwise, double whole = 1) {
-    const auto found = settings_.find(name);
-    if (found == settings_.end()) return otherwise;
-    const std::string& value = found->second;
-    if (value == "true" || value == "True") return 1;
-    if (value == "false" || value == "False") return 0;
-    double parsed = 0;
-    const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), parsed);
-    if (error == std::errc{} && std::isfinite(parsed))
-      return end < value.data() + value.size() && *end == '%' ? parsed / 100 * whole : parsed;
-    if (problem_.empty()) problem_ = fmt::format("{} is '{}', which is no number", name, printable(value));
-    return otherwise;
-  }
-  const std::string& problem() const { return problem_; }
-
- private:
-  const Settings& settings_;
-  std::string problem_;
-};
+constexpr std::string_view utf8_mark = "\xEF\xBB\xBF";
 
 /// A count of walls or layers: find_problem() refuses what is out of its range, but an int must hold it.
 int count_of(double count) { return std::isnan(count) ? -1 : static_cast<int>(std::clamp(count, -1.0, 1e6)); }
@@ -95,9 +34,17 @@ double width_of(Reader& r, std::string_view name, double layer_mm, double nozzle
   return width > 0 ? width : 1.125 * nozzle_mm;
 }
 
+/// A switch up to PrusaSlicer 2.6, a choice of "disabled", "partial" and "enabled" since.
+bool ensures_shell_thickness(Reader& r) {
+  constexpr std::string_view name = "ensure_vertical_shell_thickness";
+  const std::string chosen = r.text(name, "0");
+  if (chosen == "disabled") return false;
+  return chosen == "enabled" || chosen == "partial" || r.number(name, 0) > 0;
+}
+
 PrintProfile prusaslicer_profile(Reader& r) {
   PrintProfile p;
-  p.nozzle_mm = r.number("nozzle_diameter", 0.4);
+  p.nozzle_mm = r.by_tool("nozzle_diameter", 0.4);
   p.layer_mm = r.number("layer_height", 0.3);
   p.first_layer_mm = r.number("first_layer_height", 0.35, p.layer_mm);
   p.perimeters = count_of(r.number("perimeters", 3));
@@ -117,10 +64,10 @@ PrintProfile prusaslicer_profile(Reader& r) {
   p.infill_overlap_mm =
       r.number("infill_overlap", 0.25 * (spacing_mm + solid_spacing_mm) / 2, (spacing_mm + solid_spacing_mm) / 2);
   p.solid_below_mm2 = r.number("solid_infill_below_area", 70);
-  p.ensures_shell_thickness = r.number("ensure_vertical_shell_thickness", 0) > 0;
+  p.ensures_shell_thickness = ensures_shell_thickness(r);
   p.thick_bridges = r.number("thick_bridges", 1) > 0;
-  p.flow_ratio = r.number("extrusion_multiplier", 1);
-  p.density_g_per_cm3 = r.number("filament_density", 0);
+  p.flow_ratio = r.by_tool("extrusion_multiplier", 1);
+  p.density_g_per_cm3 = r.by_tool("filament_density", 0);
   return p;
 }
 
@@ -153,58 +100,128 @@ PrintProfile cura_profile(Reader& r) {
   return p;
 }
 
-}  // namespace
+/// A field out of its range.
+struct Problem {
+  std::string_view field;
+  double value = 0;
+  std::string allowed;
+};
 
-std::string find_problem(const PrintProfile& p) {
+std::optional<Problem> problem_of(const PrintProfile& p) {
   for (const auto& [name, value] :
        {std::pair{"layer_mm", p.layer_mm}, std::pair{"first_layer_mm", p.first_layer_mm},
         std::pair{"nozzle_mm", p.nozzle_mm}, std::pair{"external_width_mm", p.external_width_mm},
         std::pair{"perimeter_width_mm", p.perimeter_width_mm}, std::pair{"infill_width_mm", p.infill_width_mm},
         std::pair{"solid_width_mm", p.solid_width_mm}, std::pair{"flow_ratio", p.flow_ratio}})
-    if (!(value > 0 && value < 100)) return fmt::format("{} is {} but must be above 0 and below 100", name, value);
-  if (!(p.infill_ratio >= 0 && p.infill_ratio <= 1))
-    return fmt::format("infill_ratio is {} but must be from 0 to 1", p.infill_ratio);
+    if (!(value > 0 && value < 100)) return Problem{name, value, "above 0 and below 100"};
+  if (!(p.infill_ratio >= 0 && p.infill_ratio <= 1)) return Problem{"infill_ratio", p.infill_ratio, "from 0 to 1"};
   if (p.perimeters < 0 || p.perimeters > 1000)
-    return fmt::format("perimeters is {} but must be from 0 to 1000", p.perimeters);
+    return Problem{"perimeters", static_cast<double>(p.perimeters), "from 0 to 1000"};
   for (const auto& [name, count] : {std::pair{"top_layers", p.top_layers}, std::pair{"bottom_layers", p.bottom_layers}})
-    if (count < 0 || count > 1'000'000) return fmt::format("{} is {} but must be from 0 to 1000000", name, count);
+    if (count < 0 || count > 1'000'000) return Problem{name, static_cast<double>(count), "from 0 to 1000000"};
   if (!(std::abs(p.infill_overlap_mm) < 100))
-    return fmt::format("infill_overlap_mm is {} but must be above -100 and below 100", p.infill_overlap_mm);
+    return Problem{"infill_overlap_mm", p.infill_overlap_mm, "above -100 and below 100"};
   if (!(p.solid_below_mm2 >= 0 && p.solid_below_mm2 <= 1e9))
-    return fmt::format("solid_below_mm2 is {} but must be from 0 to 1e9", p.solid_below_mm2);
+    return Problem{"solid_below_mm2", p.solid_below_mm2, "from 0 to 1e9"};
   if (!(p.density_g_per_cm3 >= 0 && p.density_g_per_cm3 < 30))
-    return fmt::format("density_g_per_cm3 is {} but must be at least 0 and below 30", p.density_g_per_cm3);
-  return {};
+    return Problem{"density_g_per_cm3", p.density_g_per_cm3, "at least 0 and below 30"};
+  return std::nullopt;
 }
 
-Result<PrintProfile> parse_profile(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t\r\n");
-  const bool is_json = first != text.npos && text[first] == '{';
-  const Settings settings = is_json ? settings_in_json(text) : settings_in_lines(text);
+/// Where a field comes from in a file: settings by rank.
+struct Source {
+  std::string_view field;
+  std::vector<std::string_view> prusaslicer, cura;
+};
+
+const std::vector<Source>& sources() {
+  static const std::vector<Source> all{
+      {"layer_mm", {"layer_height"}, {"layer_height"}},
+      {"first_layer_mm", {"first_layer_height"}, {"layer_height_0", "layer_height"}},
+      {"nozzle_mm", {"nozzle_diameter"}, {"machine_nozzle_size"}},
+      {"external_width_mm",
+       {"external_perimeter_extrusion_width", "extrusion_width", "nozzle_diameter"},
+       {"wall_line_width_0", "wall_line_width", "line_width", "machine_nozzle_size"}},
+      {"perimeter_width_mm",
+       {"perimeter_extrusion_width", "extrusion_width", "nozzle_diameter"},
+       {"wall_line_width_x", "wall_line_width", "line_width", "machine_nozzle_size"}},
+      {"infill_width_mm",
+       {"infill_extrusion_width", "extrusion_width", "nozzle_diameter"},
+       {"infill_line_width", "line_width", "machine_nozzle_size"}},
+      {"solid_width_mm",
+       {"solid_infill_extrusion_width", "extrusion_width", "nozzle_diameter"},
+       {"skin_line_width", "line_width", "machine_nozzle_size"}},
+      {"flow_ratio", {"extrusion_multiplier"}, {"material_flow"}},
+      {"infill_ratio", {"fill_density"}, {"infill_sparse_density"}},
+      {"perimeters", {"perimeters"}, {"wall_line_count", "wall_thickness"}},
+      {"top_layers", {"top_solid_layers"}, {"top_layers", "top_thickness", "top_bottom_thickness"}},
+      {"bottom_layers", {"bottom_solid_layers"}, {"bottom_layers", "bottom_thickness", "top_bottom_thickness"}},
+      {"infill_overlap_mm", {"infill_overlap"}, {"infill_overlap_mm", "infill_overlap"}},
+      {"solid_below_mm2", {"solid_infill_below_area"}, {"min_infill_area"}},
+      {"density_g_per_cm3", {"filament_density"}, {"material_density"}}};
+  return all;
+}
+
+/// The problem in the file's words: its own setting as it stands there, and what that may be.
+std::string in_words_of_file(const Problem& problem, const Reader& r, PrintProfile::Rules rules) {
+  const auto source = std::ranges::find(sources(), problem.field, &Source::field);
+  const bool is_cura = rules == PrintProfile::Rules::cura;
+  const std::vector<std::string_view>& names = is_cura ? source->cura : source->prusaslicer;
+  std::string allowed = problem.allowed;
+  if (problem.field == "infill_ratio") allowed = "from 0 to 100 %";
+  if (problem.field == "flow_ratio" && is_cura) allowed = "above 0 and below 10000 %";
+  for (const std::string_view name : names)
+    if (r.has(name) && r.text(name, "") != "0")
+      return fmt::format("{}, which comes to {:g}; it must be {}", r.shown(name), problem.value, allowed);
+  return fmt::format("{} comes to {:g}; it must be {}", names.front(), problem.value, allowed);
+}
+
+std::string problem_in_file(const PrintProfile& profile, const Reader& reader) {
+  if (!reader.problem().empty()) return reader.problem();
+  const auto problem = problem_of(profile);
+  return problem ? in_words_of_file(*problem, reader, profile.rules) : "";
+}
+
+Result<PrintProfile> parse(std::string_view text, std::size_t first_line) {
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
+    return fail(ErrorCode::unusable_input, "byte 0: the text is UTF-16; save it as UTF-8 or plain ASCII");
+  if (text.starts_with(utf8_mark)) text.remove_prefix(utf8_mark.size());
+  const detail::Settings settings = detail::settings_of_profile(text, first_line);
   Reader reader(settings);
   const bool is_cura =
       reader.has("infill_sparse_density") || reader.has("wall_line_count") || reader.has("layer_height_0");
   if (!is_cura && !(reader.has("perimeters") && reader.has("fill_density")))
     return fail(ErrorCode::unusable_input,
-                "no profile of PrusaSlicer (perimeters, fill_density) and none of Cura (wall_line_count, "
-                "infill_sparse_density)");
+                fmt::format("no profile of PrusaSlicer (perimeters, fill_density) and none of Cura (wall_line_count, "
+                            "infill_sparse_density), in {} settings; export the slicer's configuration",
+                            settings.size()));
   const PrintProfile profile = is_cura ? cura_profile(reader) : prusaslicer_profile(reader);
-  const std::string problem = reader.problem().empty() ? find_problem(profile) : reader.problem();
-  if (!problem.empty()) return fail(ErrorCode::unusable_input, problem);
+  if (const std::string problem = problem_in_file(profile, reader); !problem.empty())
+    return fail(ErrorCode::unusable_input, problem);
   return profile;
 }
+
+}  // namespace
+
+std::string find_problem(const PrintProfile& profile) {
+  const auto problem = problem_of(profile);
+  return problem ? fmt::format("{} is {:g} but must be {}", problem->field, problem->value, problem->allowed) : "";
+}
+
+Result<PrintProfile> parse_profile(std::string_view text) { return parse(text, 1); }
 
 Result<PrintProfile> read_profile(const std::filesystem::path& path) {
   constexpr std::streamoff most_bytes = 1 << 20;
   std::ifstream file(path, std::ios::binary | std::ios::ate);
   if (!file || std::filesystem::is_directory(path))
-    return fail(ErrorCode::file_system, path.string() + ": the profile cannot be read");
+    return fail(ErrorCode::file_system, path.string() + ": the profile cannot be read; check its name");
   const std::streamoff size = file.tellg();
+  const bool is_whole = size <= most_bytes;
   file.seekg(std::max<std::streamoff>(0, size - most_bytes));  // a G-code's settings are its end
   std::string text(most_bytes, '\0');                          // and no more, should it have no end
   file.read(text.data(), most_bytes);
   text.resize(static_cast<std::size_t>(file.gcount()));
-  return parse_profile(text).map_error([&path](Error error) {
+  return parse(text, is_whole ? 1 : 0).map_error([&path](Error error) {
     error.message = path.string() + ": " + error.message;
     return error;
   });

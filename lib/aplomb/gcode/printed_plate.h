@@ -57,17 +57,16 @@ struct PrintedPlate {
   std::vector<std::string> notes;      ///< what was assumed or looks odd, a sentence each
 };
 
-/// Reads a G-code program in one pass, in memory that does not grow with it.
+/// Reads a G-code program in one pass, in memory that does not grow with its length, only with its objects.
 ///
 /// Mass is what E pushes out: for each move, density x pi/4 d^2 x (dE less what retractions are owed), lying evenly
 /// along the move, arcs included: (m, sum m c) per object with c the path's exact centroid, lowered by half a layer.
 ///
 /// \pre  find_problem(options) is empty.
-/// \return file_system; unusable_input for what is no G-code (binary G-code, an archive, text), ends before its
-/// slicer's
-///         last lines, lays nothing down, or cannot be read, with the line; over_budget beyond 10,000 objects;
-///         cancelled.
-/// \par Cost  O(bytes); a few MB.
+/// \return file_system; unusable_input for what is no G-code (binary G-code, an archive, UTF-16), ends before its
+///         slicer's last lines, lays nothing down, or cannot be read, with the line; over_budget beyond 10,000 objects
+///         or 100,000 pairs of an object and a tool; cancelled.
+/// \par Cost  O(bytes + objects x loops of brims, of which 4096 count).
 Result<PrintedPlate> read_gcode(const std::filesystem::path& path, const GcodeOptions& options = {},
                                 const Job& job = {});
 

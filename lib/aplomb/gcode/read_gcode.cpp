@@ -21,25 +21,28 @@ using detail::PrintLedger;
 using detail::Slicer;
 using detail::Stroke;
 
-constexpr std::size_t settings_bytes = 1 << 18;  // PrusaSlicer's take 15 kB, Orca's 60
-constexpr std::uint64_t lines_between_reports = 1 << 15;
+constexpr std::size_t settings_bytes = 1 << 18;           // PrusaSlicer's take 15 kB, Orca's 60
+constexpr std::uint64_t bytes_between_reports = 1 << 15;  // a byte may cost a microsecond
 constexpr double used_error_ratio = 0.01;
 
 tl::unexpected<Error> unusable(const std::filesystem::path& path, std::string_view what) {
   return fail(ErrorCode::unusable_input, fmt::format("{}: {}", path.string(), what));
 }
 
-bool is_text(std::string_view bytes) { return bytes.find('\0') == bytes.npos; }
-
 /// What the first bytes tell of a file that is no program in text.
-std::string_view refusal(std::string_view head) {
-  if (head.empty()) return "the file is empty";
+std::string refusal(std::string_view head) {
+  if (head.empty()) return "byte 0: the file is empty; slice the model again";
   if (head.starts_with("GCDE"))
-    return "this is binary G-code, which cannot be read: switch it off in the slicer (PrusaSlicer: Printer settings, "
-           "Binary G-code), or convert it to text";
-  if (head.starts_with("PK\x03\x04")) return "this is an archive (a sliced 3MF?): give the G-code file that it holds";
-  if (!is_text(head)) return "this is no G-code: it holds bytes that are no text";
-  return {};
+    return "byte 0: this is binary G-code, which cannot be read; switch it off in the slicer (PrusaSlicer: Printer "
+           "settings, Binary G-code), or convert it to text";
+  if (head.starts_with("PK\x03\x04"))
+    return "byte 0: this is an archive (a sliced 3MF?); give the G-code file that it holds";
+  if (head.starts_with("\xFF\xFE") || head.starts_with("\xFE\xFF"))
+    return "byte 0: the text is UTF-16; save it as UTF-8 or plain ASCII";
+  const std::size_t zero = head.find('\0');
+  if (zero == head.npos) return {};
+  return fmt::format("line {}: this is no G-code, for it holds bytes that are no text; give the slicer's G-code file",
+                     1 + std::ranges::count(head.substr(0, zero), '\n'));
 }
 
 /// The settings of the filaments, which stand before the moves or behind them.
@@ -47,7 +50,7 @@ Result<detail::FilamentSettings> settings_of(const std::filesystem::path& path) 
   auto lines = LineSource::open(path);
   if (!lines) return tl::unexpected(lines.error());
   Annotations read;
-  while (lines->bytes_read() <= 2 * settings_bytes) {  // whole chunks are read
+  while (lines->bytes_done() <= 2 * settings_bytes) {
     const auto line = lines->next();
     if (!line) break;
     if (line->starts_with(';')) read.note(*line);
@@ -92,7 +95,7 @@ class Reader {
       : path_(path), filaments_(filaments), ledger_(filaments, is_one) {}
 
   Result<void> read(LineSource& lines, const Job& job);
-  Result<PrintedPlate> plate(const LineSource& lines);
+  Result<PrintedPlate> plate(const LineSource& lines, const Job& job);
 
  private:
   Result<void> read_line(std::string_view line);
@@ -119,10 +122,12 @@ Result<void> Reader::read_line(std::string_view line) {
   if (!stroke) return tl::unexpected(stroke.error());
   if (!*stroke) return {};
   if (!is_turned_ && !ledger_.turn_to(annotations_.object(), annotations_.feature()))
-    return fail(ErrorCode::over_budget, "there are more than 10,000 objects");
+    return fail(ErrorCode::over_budget,
+                "there are more than 10,000 objects; print fewer at once, or count them as one (--one)");
   is_turned_ = true;
   const double seen_mm = heights_.at((*stroke)->to_mm.z, annotations_.usual_height_mm());
-  ledger_.enter(**stroke, annotations_.layer_height_mm().value_or(seen_mm));
+  if (!ledger_.enter(**stroke, annotations_.layer_height_mm().value_or(seen_mm)))
+    return fail(ErrorCode::over_budget, "more than 100,000 pairs of an object and a filament; print fewer at once");
   extrudes_[(*stroke)->tool] = true;
   least_flow_ = std::min(least_flow_, machine_.flow_ratio());
   most_flow_ = std::max(most_flow_, machine_.flow_ratio());
@@ -130,12 +135,14 @@ Result<void> Reader::read_line(std::string_view line) {
 }
 
 Result<void> Reader::read(LineSource& lines, const Job& job) {
+  std::uint64_t next_report = 0;
   while (const auto line = lines.next()) {
     if (const auto done = read_line(*line); !done)
       return fail(done.error().code,
                   fmt::format("{}: line {}: {}", path_.string(), lines.line_number(), done.error().message));
-    if (lines.line_number() % lines_between_reports == 0 &&
-        !job.report(static_cast<double>(lines.bytes_read()) / static_cast<double>(lines.bytes()), "read"))
+    if (lines.bytes_done() < next_report) continue;
+    next_report = lines.bytes_done() + bytes_between_reports;
+    if (!job.report(static_cast<double>(lines.bytes_done()) / static_cast<double>(lines.bytes()), "read"))
       return cancelled();
   }
   if (lines.error()) return tl::unexpected(*lines.error());
@@ -155,6 +162,9 @@ std::vector<std::string> Reader::notes(const PrintedPlate& plate) const {
     notes.emplace_back(annotations_.names_features()
                            ? "objects have no labels: all of the print counts as one (the slicer can label objects)"
                            : "neither objects nor features have labels: all that is extruded counts as one object");
+  if (ledger_.leaves_brims_out())
+    notes.emplace_back(
+        "there are too many objects and loops of brims to tell which belong together: brims are left out");
   if (least_flow_ != 1 || most_flow_ != 1)
     notes.push_back(fmt::format("the program sets the flow to {:g} % (M221), which is counted",
                                 100 * (least_flow_ != 1 ? least_flow_ : most_flow_)));
@@ -166,17 +176,22 @@ std::vector<std::string> Reader::notes(const PrintedPlate& plate) const {
   return notes;
 }
 
-Result<PrintedPlate> Reader::plate(const LineSource& lines) {
+Result<PrintedPlate> Reader::plate(const LineSource& lines, const Job& job) {
   if (annotations_.slicer() != Slicer::unknown && !annotations_.saw_end())
-    return unusable(path_, fmt::format("it ends too early, after line {}{}: what {} writes at the end is missing",
-                                       lines.line_number(), lines.ended_within_a_line() ? " (cut off)" : "",
-                                       annotations_.slicer_name()));
+    return unusable(
+        path_,
+        fmt::format("line {}{}: it ends too early, for what {} writes at the end is missing; export it again",
+                    lines.line_number(), lines.ended_within_a_line() ? " (cut off)" : "", annotations_.slicer_name()));
   PrintedPlate plate;
   plate.slicer = annotations_.slicer_name();
-  ledger_.close(annotations_.names_features(), plate);
+  if (const auto closed = ledger_.close(annotations_.names_features(), plate, job); !closed)
+    return tl::unexpected(closed.error());
   for (std::size_t tool = 0; tool < extrudes_.size(); ++tool)
     if (extrudes_[tool]) plate.filaments.push_back(filaments_[tool]);
-  if (plate.objects.empty()) return unusable(path_, "no move lays down material for an object");
+  if (plate.objects.empty())
+    return unusable(path_, fmt::format("line {}: up to here, its end, no move lays down material for an object; give "
+                                       "the G-code file of a print",
+                                       lines.line_number()));
   plate.notes = notes(plate);
   return plate;
 }
@@ -194,13 +209,13 @@ std::string find_problem(const GcodeOptions& options) {
 Result<PrintedPlate> read_gcode(const std::filesystem::path& path, const GcodeOptions& options, const Job& job) {
   auto lines = LineSource::open(path);
   if (!lines) return tl::unexpected(lines.error());
-  if (const std::string_view why = refusal(lines->head()); !why.empty()) return unusable(path, why);
+  if (const std::string why = refusal(lines->head()); !why.empty()) return unusable(path, why);
   const auto settings = settings_of(path);
   if (!settings) return tl::unexpected(settings.error());
   const std::vector<Filament> filaments = filaments_of(*settings, options);
   Reader reader(path, filaments, options.is_one);
-  if (const auto read = reader.read(*lines, job); !read) return tl::unexpected(read.error());
-  return reader.plate(*lines);
+  if (const auto read = reader.read(*lines, job.part(0, 0.9)); !read) return tl::unexpected(read.error());
+  return reader.plate(*lines, job.part(0.9, 1));
 }
 
 }  // namespace aplomb

@@ -6,6 +6,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "aplomb/core/printable.h"
+
 namespace aplomb {
 namespace {
 
@@ -18,21 +20,29 @@ std::optional<std::size_t> number_in(const std::string& text) {
   return number;
 }
 
+/// "1 cube, 2 tower", as many as a line holds.
+std::string names_of(const std::vector<PrintedObject>& objects) {
+  constexpr std::size_t most_named = 10, most_name_bytes = 60;
+  std::string names;
+  for (std::size_t i = 0; i < std::min(most_named, objects.size()); ++i)
+    names += fmt::format("{}{} {}", i ? ", " : "", i + 1, printable(objects[i].name, most_name_bytes));
+  return objects.size() > most_named ? fmt::format("{} ... {}", names, objects.size()) : names;
+}
+
 /// Keeps only the object asked for: its label, the label's beginning where that is one object's, or its number.
 Result<void> choose(std::vector<PrintedObject>& objects, const std::string& wanted) {
   if (wanted.empty()) return {};
   std::vector<std::size_t> found;
-  std::string names;
   for (std::size_t i = 0; i < objects.size(); ++i) {
     if (objects[i].name == wanted) found.assign(1, i);
-    names += fmt::format("{}{} {}", i ? ", " : "", i + 1, objects[i].name);
     if (objects[i].name == wanted) break;
     if (objects[i].name.starts_with(wanted)) found.push_back(i);
   }
   const auto number = number_in(wanted);
   if (found.empty() && number && *number >= 1 && *number <= objects.size()) found.push_back(*number - 1);
   if (found.size() != 1)
-    return fail(ErrorCode::invalid_option, fmt::format("object is '{}' but must be one of: {}", wanted, names));
+    return fail(ErrorCode::invalid_option,
+                fmt::format("object is '{}' but must be one of: {}", printable(wanted), names_of(objects)));
   PrintedObject kept = std::move(objects[found.front()]);
   objects.clear();
   objects.push_back(std::move(kept));

@@ -9,6 +9,7 @@
 
 #include "aplomb/adapters/cgal/boolean.h"
 #include "aplomb/core/isolated.h"
+#include "aplomb/core/pulse.h"
 #include "aplomb/mesh/detail/mesh_bytes.h"
 
 namespace aplomb {
@@ -33,7 +34,8 @@ Result<std::optional<TriangleMesh>> combined(Operation operation, const Triangle
   if (!bytes) return tl::unexpected(bytes.error());
   if (bytes->empty()) return std::optional<TriangleMesh>();
   std::size_t at = 0;
-  return std::optional(detail::unpacked(*bytes, at));
+  auto mesh = detail::unpacked(*bytes, at);
+  return mesh ? std::optional(std::move(*mesh)) : std::nullopt;
 }
 
 struct HashOfPoint {
@@ -49,10 +51,12 @@ Triangle turned(Triangle t) {
   return t;
 }
 
-/// The cut mesh with the triangles that it shares with the one before it first, in that one's order.
-Drilled in_order_of(const TriangleMesh& before, std::size_t outer_triangles, const TriangleMesh& cut) {
+/// The cut mesh with the triangles that it shares with the one before it first, in that one's order. Where the pulse
+/// stopped, not all of it.
+Drilled in_order_of(const TriangleMesh& before, std::size_t outer_triangles, const TriangleMesh& cut,
+                    const Pulse& pulse) {
   std::unordered_map<Vec3, std::uint32_t, HashOfPoint> numbers;
-  for (std::uint32_t v = 0; v < before.vertices.size(); ++v) numbers.emplace(before.vertices[v], v);
+  for (std::uint32_t v = 0; v < before.vertices.size() && pulse.goes_on(); ++v) numbers.emplace(before.vertices[v], v);
   Drilled drilled{{before.vertices, {}}, 0, 0, {}};
   std::vector<std::uint32_t> number_of(cut.vertices.size());
   for (std::size_t v = 0; v < cut.vertices.size(); ++v) {
@@ -63,13 +67,17 @@ Drilled in_order_of(const TriangleMesh& before, std::size_t outer_triangles, con
   std::set<Triangle> kept;
   std::vector<Triangle> made;
   std::set<Triangle> known;
-  for (const Triangle& t : before.triangles) known.insert(turned(t));
+  for (const Triangle& t : before.triangles) {
+    if (!pulse.goes_on()) break;
+    known.insert(turned(t));
+  }
   for (const Triangle& t : cut.triangles) {
+    if (!pulse.goes_on()) break;
     const Triangle now{number_of[t[0]], number_of[t[1]], number_of[t[2]]};
     if (known.contains(turned(now))) kept.insert(turned(now));
     else made.push_back(now);
   }
-  for (std::size_t t = 0; t < before.triangles.size(); ++t)
+  for (std::size_t t = 0; t < before.triangles.size() && pulse.goes_on(); ++t)
     if (kept.contains(turned(before.triangles[t]))) {
       drilled.mesh.triangles.push_back(before.triangles[t]);
       if (t < outer_triangles) ++drilled.untouched_outer;
@@ -111,7 +119,9 @@ Result<Drilled> drill(const TriangleMesh& solid, std::size_t outer_triangles, st
     const auto cut = combined(adapters::difference, solid, tool, part.part(0, 0.6));
     if (!cut) return tl::unexpected(cut.error());
     if (!*cut) continue;
-    Drilled drilled = in_order_of(solid, outer_triangles, **cut);
+    const Pulse pulse(part, 0.6, "cut escape holes");
+    Drilled drilled = in_order_of(solid, outer_triangles, **cut, pulse);
+    if (pulse.stopped()) return cancelled();
     drilled.mesh = rounded_to_float(tidy(std::move(drilled.mesh)));
     drilled.holes = turned_holes;
     const auto checked = check_solid(drilled.mesh, part.part(0.6, 1));

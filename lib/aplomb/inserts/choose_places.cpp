@@ -71,19 +71,22 @@ double PlaceChooser::worth_of(const LoadedBody& body) const {
 
 double PlaceChooser::worth_of(const Candidates& chosen) const { return worth_of(body_of(chosen)); }
 
-bool PlaceChooser::asked_fits(std::uint32_t candidate) {
-  if (known_[candidate] == 0) known_[candidate] = fits_.fits(candidates_[candidate]) ? 1 : -1;
+/// Not told, so no, where the pulse stopped.
+bool PlaceChooser::asked_fits(std::uint32_t candidate, const Pulse& pulse) {
+  if (known_[candidate] == 0 && pulse.goes_on(1000)) known_[candidate] = fits_.fits(candidates_[candidate]) ? 1 : -1;
   return known_[candidate] > 0;
 }
 
-bool PlaceChooser::any_fits() {
-  for (std::uint32_t c = 0; c < candidates_.size(); ++c)
-    if (asked_fits(c)) return true;
+Result<bool> PlaceChooser::any_fits(const Job& job) {
+  const Pulse pulse(job, 1, "place inserts");
+  for (std::uint32_t c = 0; c < candidates_.size() && !pulse.stopped(); ++c)
+    if (asked_fits(c, pulse)) return true;
+  if (pulse.stopped()) return cancelled();
   return false;
 }
 
 /// Whether there are enough inserts, and it is apart from the others and fits.
-bool PlaceChooser::may_join(const Candidates& chosen, std::uint32_t candidate, int most) {
+bool PlaceChooser::may_join(const Candidates& chosen, std::uint32_t candidate, int most, const Pulse& pulse) {
   const std::uint32_t pocket = candidates_[candidate].pocket, stock = loads_.stocks[pocket];
   int all = fits_.pockets()[pocket].stacked, of_stock = all;
   for (const std::uint32_t c : chosen) {
@@ -94,42 +97,44 @@ bool PlaceChooser::may_join(const Candidates& chosen, std::uint32_t candidate, i
   if (known_[candidate] < 0 || all > most || of_stock > loads_.most[stock]) return false;
   for (const std::uint32_t c : chosen)
     if (!fits_.are_apart(candidates_[c], candidates_[candidate])) return false;
-  return asked_fits(candidate);
+  return asked_fits(candidate, pulse);
 }
 
-void PlaceChooser::fill_by_plane(Candidates& chosen, const Candidates& by_gain, int most) {
+void PlaceChooser::fill_by_plane(Candidates& chosen, const Candidates& by_gain, int most, const Pulse& pulse) {
   for (const std::uint32_t c : by_gain) {
     if (inserts_of(chosen) >= most) return;
-    if (may_join(chosen, c, most)) chosen.push_back(c);
+    if (may_join(chosen, c, most, pulse)) chosen.push_back(c);
   }
 }
 
 /// Those that would make most of a choice, and with what worth, the best first; none that would make less of it.
 std::vector<std::pair<double, std::uint32_t>> PlaceChooser::best_to_join(const Candidates& chosen,
                                                                          const Candidates& among, int most,
-                                                                         std::size_t count) {
+                                                                         std::size_t count, const Pulse& pulse) {
   const LoadedBody body = body_of(chosen);
   const double now = worth_of(body);
   std::vector<std::pair<double, std::uint32_t>> better;  // the worth with its sign changed: sorts the best first
   for (const std::uint32_t c : among) {
     if (known_[c] < 0) continue;
+    if (!pulse.goes_on()) break;
     const LoadedBody load = load_of(candidates_[c]);
     const double then = worth_of({body.solid + load.solid, body.inserts + load.inserts});
     if (then > now + worth) better.emplace_back(-then, c);
   }
   std::ranges::make_heap(better, std::greater{});
   std::vector<std::pair<double, std::uint32_t>> best;
-  while (!better.empty() && best.size() < count) {
-    if (may_join(chosen, better.front().second, most)) best.emplace_back(-better.front().first, better.front().second);
+  while (!better.empty() && best.size() < count && !pulse.stopped()) {
+    if (may_join(chosen, better.front().second, most, pulse))
+      best.emplace_back(-better.front().first, better.front().second);
     std::ranges::pop_heap(better, std::greater{});
     better.pop_back();
   }
   return best;
 }
 
-void PlaceChooser::fill_by_worth(Candidates& chosen, const Candidates& among, int most) {
+void PlaceChooser::fill_by_worth(Candidates& chosen, const Candidates& among, int most, const Pulse& pulse) {
   while (inserts_of(chosen) < most) {
-    const auto best = best_to_join(chosen, among, most, 1);
+    const auto best = best_to_join(chosen, among, most, 1, pulse);
     if (best.empty()) return;
     chosen.push_back(best.front().second);
   }
@@ -143,15 +148,16 @@ Result<Candidates> PlaceChooser::best_of_beam(const Candidates& among, int most,
   Candidates best;
   for (int step = 0; step < most; ++step) {
     std::map<Candidates, double> next;
+    const Pulse pulse(job, double(step) / most, "place inserts");
     for (const Candidates& chosen : beam) {
-      if (!job.report(double(step) / most, "place inserts")) return cancelled();
       if (inserts_of(chosen) >= most) continue;
-      for (const auto& [then, c] : best_to_join(chosen, among, most, width)) {
+      for (const auto& [then, c] : best_to_join(chosen, among, most, width, pulse)) {
         Candidates longer = chosen;
         longer.insert(std::ranges::lower_bound(longer, c), c);
         next.emplace(std::move(longer), then);
       }
     }
+    if (pulse.stopped()) return cancelled();
     if (next.empty()) break;
     std::vector<std::pair<double, Candidates>> ranked;
     ranked.reserve(next.size());
@@ -170,9 +176,10 @@ Result<void> PlaceChooser::exchange(Candidates& chosen, const Candidates& among,
     const double before = worth_of(chosen);
     for (std::size_t i = 0; i < chosen.size(); ++i)
       for (std::size_t j = i; j < (chosen.size() <= most_for_pairs ? chosen.size() : i + 1); ++j) {
-        if (!job.report((sweep + double(i) / double(chosen.size())) / most_sweeps, "place inserts")) return cancelled();
+        const Pulse pulse(job, (sweep + double(i) / double(chosen.size())) / most_sweeps, "place inserts");
         Candidates other = without(chosen, i, j);
-        fill_by_worth(other, among, most);
+        fill_by_worth(other, among, most, pulse);
+        if (pulse.stopped()) return cancelled();
         if (worth_of(other) > worth_of(chosen) + worth) chosen = std::move(other);
         if (i >= chosen.size()) break;
       }
@@ -186,12 +193,16 @@ Result<PocketChoice> PlaceChooser::improved(const Plane& plane, int most, const 
   auto from_beam = best_of_beam(among, most, job.part(0, 0.4));
   if (!from_beam) return tl::unexpected(from_beam.error());
   Candidates from_plane;
-  fill_by_plane(from_plane, plane.relaxed, most);
+  const Pulse at_first(job, 0.4, "place inserts");
+  fill_by_plane(from_plane, plane.relaxed, most, at_first);
+  if (at_first.stopped()) return cancelled();
   Candidates best;
   double from = 0.4;
   for (Candidates chosen : {std::move(*from_beam), std::move(from_plane)}) {
-    fill_by_worth(chosen, among, most);
-    if (!liked_) fill_by_plane(chosen, among, most);
+    const Pulse pulse(job, from, "place inserts");
+    fill_by_worth(chosen, among, most, pulse);
+    if (!liked_) fill_by_plane(chosen, among, most, pulse);
+    if (pulse.stopped()) return cancelled();
     if (const auto done = exchange(chosen, among, most, job.part(from, from + 0.3)); !done)
       return tl::unexpected(done.error());
     from += 0.3;

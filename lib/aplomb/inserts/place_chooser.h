@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "aplomb/balance/poses.h"
+#include "aplomb/core/pulse.h"
 #include "aplomb/inserts/pocket_places.h"
 
 namespace aplomb {
@@ -68,8 +69,9 @@ class PlaceChooser {
   /// What the loads of the relaxed choice add up to that a form likes best.
   Moments relaxed_load(const AffineForm& form, int most) const;
 
-  /// Whether a pocket fits at any of the candidates. \par Cost  asks each of those that were not asked about.
-  bool any_fits();
+  /// Whether a pocket fits at any of the candidates. \return cancelled.
+  /// \par Cost  asks each of those that were not asked about.
+  Result<bool> any_fits(const Job& job = {});
 
  private:
   struct Cell {
@@ -88,17 +90,19 @@ class PlaceChooser {
   std::vector<std::vector<std::uint32_t>> best_of_stock(const AffineForm& form, std::uint32_t stock, int most) const;
   Result<Plane> search(int most, const Job& job);
   std::vector<std::uint32_t> shortlist(const AffineForm& form) const;
-  bool asked_fits(std::uint32_t candidate);
-  bool may_join(const std::vector<std::uint32_t>& chosen, std::uint32_t candidate, int most);
+  bool asked_fits(std::uint32_t candidate, const Pulse& pulse);
+  bool may_join(const std::vector<std::uint32_t>& chosen, std::uint32_t candidate, int most, const Pulse& pulse);
   LoadedBody body_of(const std::vector<std::uint32_t>& chosen) const;
   double worth_of(const LoadedBody& body) const;
   double worth_of(const std::vector<std::uint32_t>& chosen) const;
   int inserts_of(const std::vector<std::uint32_t>& chosen) const;
-  void fill_by_plane(std::vector<std::uint32_t>& chosen, const std::vector<std::uint32_t>& by_gain, int most);
+  void fill_by_plane(std::vector<std::uint32_t>& chosen, const std::vector<std::uint32_t>& by_gain, int most,
+                     const Pulse& pulse);
   std::vector<std::pair<double, std::uint32_t>> best_to_join(const std::vector<std::uint32_t>& chosen,
                                                              const std::vector<std::uint32_t>& among, int most,
-                                                             std::size_t count);
-  void fill_by_worth(std::vector<std::uint32_t>& chosen, const std::vector<std::uint32_t>& among, int most);
+                                                             std::size_t count, const Pulse& pulse);
+  void fill_by_worth(std::vector<std::uint32_t>& chosen, const std::vector<std::uint32_t>& among, int most,
+                     const Pulse& pulse);
   Result<std::vector<std::uint32_t>> best_of_beam(const std::vector<std::uint32_t>& among, int most, const Job& job);
   Result<PocketChoice> improved(const Plane& plane, int most, const Job& job);
   Result<void> exchange(std::vector<std::uint32_t>& chosen, const std::vector<std::uint32_t>& among, int most,

@@ -14,13 +14,15 @@
 #include <string_view>
 #include <system_error>
 
+#include "aplomb/core/printable.h"
+
 namespace aplomb {
 namespace {
 
 namespace fs = std::filesystem;
 
 tl::unexpected<Error> cannot_write(const fs::path& target, const std::string& reason) {
-  return fail(ErrorCode::file_system, "cannot write " + target.string() + ": " + reason);
+  return fail(ErrorCode::file_system, "cannot write " + printable(target.string(), 4096) + ": " + reason);
 }
 
 std::string reason_of(int error_number) { return std::generic_category().message(error_number); }
@@ -136,7 +138,7 @@ Result<void> write_and_rename(const fs::path& target, const struct stat* existin
   Descriptor file(::open(temp.path().c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
   if (file.get() < 0) return cannot_write(target, "no file can be made in its folder: " + reason_of(errno));
   temp.set_made(true);
-  if (existing && ::fchmod(file.get(), existing->st_mode & 07777) != 0) return cannot_write(target, reason_of(errno));
+  if (existing && ::fchmod(file.get(), existing->st_mode & 0777) != 0) return cannot_write(target, reason_of(errno));
   if (!write_all(file.get(), bytes) || ::fsync(file.get()) != 0 || !file.close())
     return cannot_write(target, reason_of(errno));
   if (::rename(temp.path().c_str(), target.c_str()) != 0) return cannot_write(target, reason_of(errno));
@@ -167,7 +169,7 @@ Result<void> write_file_atomically(const fs::path& target, std::span<const std::
   const fs::path folder = fs::absolute(*path).parent_path();
   std::error_code ignored;
   if (!fs::is_directory(folder, ignored))
-    return cannot_write(target, "there is no folder " + folder.string() + "; make it first");
+    return cannot_write(target, "there is no folder " + printable(folder.string(), 4096) + "; make it first");
   return write_and_rename(*path, exists ? &status : nullptr, bytes, on_temp_file);
 }
 

@@ -4,6 +4,7 @@
 
 #include "aplomb/io/detail/readers.h"
 #include "aplomb/io/detail/threemf_vendor.h"
+#include "aplomb/io/detail/threemf_xml.h"
 
 namespace aplomb::detail {
 namespace {
@@ -26,7 +27,8 @@ class Assembler {
     file.unit_mm = (*root)->unit_mm;
     file.unit_known = true;
     if ((*root)->items.empty())
-      return context_.unusable("", "its build is empty, so that nothing is to be printed; export the model again");
+      return context_.unusable("part " + in_quotes(root_),
+                               "its build is empty, so that nothing is to be printed; export the model again");
     for (const ThreemfReference& item : (*root)->items)
       if (auto done = add_item(item, file); !done) return tl::unexpected<Error>(done.error());
     note_unused(**root);
@@ -59,7 +61,25 @@ class Assembler {
     if (!xml) return tl::unexpected<Error>(xml.error());
     auto part = read_threemf_part(context_, name, std::move(*xml));
     if (!part) return tl::unexpected<Error>(part.error());
+    if (name == root_)
+      if (auto done = leave_out_volumes(*part); !done) return tl::unexpected<Error>(done.error());
     return &parts_.emplace(name, std::move(*part)).first->second;
+  }
+
+  /// Once for each object, however many items are made of it.
+  Result<void> leave_out_volumes(ThreemfPart& root) {
+    for (const auto& [id, ranges] : vendor_.left_out_triangles) {
+      const auto found = root.objects.find(id);
+      if (found == root.objects.end()) continue;
+      if (!context_.proceed(0.8)) return cancelled();
+      TriangleMesh& mesh = found->second.mesh;
+      if (auto admitted = context_.hold(mesh.vertices.size() * (sizeof(Vec3) + sizeof(std::uint32_t)) +
+                                        mesh.triangles.size() * (sizeof(Triangle) + sizeof(int)));
+          !admitted)
+        return admitted;
+      mesh = without(mesh, ranges);
+    }
+    return {};
   }
 
   Result<const ThreemfObject*> object(const Key& key) {
@@ -109,10 +129,12 @@ class Assembler {
     }
     const auto whole = amount(key, 0);
     if (!whole) return tl::unexpected<Error>(whole.error());
-    if (auto admitted = admit(*whole); !admitted) return admitted;
     MeshObject object{(*found)->name, {}};
     if (const auto name = vendor_.names.find(item.id); object.name.empty() && name != vendor_.names.end())
       object.name = name->second;
+    // Its place in a vector that doubles, its name, and what the heap takes to keep those and a small mesh.
+    context_.set_work_bytes(context_.work_bytes() + 3 * sizeof(MeshObject) + object.name.size() + 128);
+    if (auto admitted = admit(*whole); !admitted) return admitted;
     object.mesh.vertices.reserve(static_cast<std::size_t>(whole->vertices));
     object.mesh.triangles.reserve(static_cast<std::size_t>(whole->triangles));
     if (auto done = append(key, item.transform, object.mesh); !done) return done;
@@ -154,10 +176,7 @@ class Assembler {
   }
 
   Result<void> append_mesh(const Key& key, const TriangleMesh& mesh, const Affine3& transform, TriangleMesh& out) {
-    const auto left_out =
-        key.part == root_ ? vendor_.left_out_triangles.find(key.id) : vendor_.left_out_triangles.end();
-    const TriangleMesh moved =
-        transformed(left_out == vendor_.left_out_triangles.end() ? mesh : without(mesh, left_out->second), transform);
+    const TriangleMesh moved = transformed(mesh, transform);
     for (const Vec3& v : moved.vertices)
       for (int axis = 0; axis < 3; ++axis)
         if (!(std::abs(v[axis]) <= std::numeric_limits<float>::max()))
@@ -180,6 +199,8 @@ class Assembler {
     }
     int open_ranges = 0;
     TriangleMesh kept;
+    kept.vertices.reserve(mesh.vertices.size());
+    kept.triangles.reserve(count);
     std::vector<std::uint32_t> renumbered(mesh.vertices.size(), kUnused);
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
       open_ranges += begun[i];

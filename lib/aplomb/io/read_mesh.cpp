@@ -81,16 +81,19 @@ bool is_soup(const TriangleMesh& mesh) {
 }
 
 /// What every format has in common after it was read.
-Result<MeshFile> finished(MeshFile file, ReadContext& context) {
-  const std::string stem =
-      context.name() == "-" ? "standard input" : std::filesystem::path(context.name()).stem().string();
+Result<MeshFile> finished(MeshFile file, std::string_view name, ReadContext& context) {
+  const std::string stem = name == "-" ? "standard input" : std::filesystem::path(name).stem().string();
   std::size_t left_out = std::erase_if(file.objects, [](const MeshObject& o) { return o.mesh.triangles.empty(); });
   if (file.objects.empty()) return context.unusable("", "it holds no triangles; export the model as a surface mesh");
   if (left_out > 0) context.note(std::to_string(left_out) + " objects without triangles were ignored");
   for (MeshObject& object : file.objects) {
     if (object.name.empty()) object.name = stem;
     if (!is_soup(object.mesh)) continue;
+    const std::size_t work_bytes = context.work_bytes();
+    context.set_work_bytes(work_bytes + object.mesh.vertices.capacity() * sizeof(Vec3) +
+                           object.mesh.triangles.capacity() * sizeof(Triangle));
     auto indexed = detail::indexed_by_position(object.mesh, context);
+    context.set_work_bytes(work_bytes);
     if (!indexed) return tl::unexpected<Error>(indexed.error());
     object.mesh = std::move(*indexed);
     context.note("every triangle of " + detail::in_quotes(object.name) +
@@ -101,8 +104,8 @@ Result<MeshFile> finished(MeshFile file, ReadContext& context) {
 }
 
 tl::unexpected<Error> cannot_read(const std::filesystem::path& path, int error_number) {
-  return fail(ErrorCode::file_system,
-              "cannot read " + path.string() + ": " + std::generic_category().message(error_number));
+  return fail(ErrorCode::file_system, "cannot read " + detail::shown_path(path.string()) + ": " +
+                                          std::generic_category().message(error_number));
 }
 
 /// Reads to the end, never more than `most` bytes.
@@ -112,10 +115,14 @@ Result<std::vector<std::byte>> read_all(int fd, std::size_t expected, std::size_
   bytes.resize(std::min(expected + 1, most));
   std::size_t size = 0;
   for (;;) {
-    if (size == bytes.size()) bytes.resize(std::min(std::max<std::size_t>(65536, 2 * size), most));
-    if (size == bytes.size())
-      return fail(ErrorCode::over_budget, path.string() + ": larger than the memory budget of " +
-                                              std::to_string(most >> 20) + " MB; allow more memory");
+    if (size == bytes.size()) {  // a stream: while it grows, the old and the new buffer live side by side
+      const std::size_t larger = std::min(std::max<std::size_t>(65536, 2 * size), most - size);
+      if (larger <= size)
+        return fail(ErrorCode::over_budget, detail::shown_path(path.string()) + ": larger than the memory budget of " +
+                                                std::to_string(most >> 20) +
+                                                " MB lets a stream be; allow more memory, or save it as a file");
+      bytes.resize(larger);
+    }
     const ssize_t got = ::read(fd, bytes.data() + size, std::min(bytes.size() - size, std::size_t{1} << 24));
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) return cannot_read(path, errno);
@@ -133,11 +140,11 @@ Result<std::vector<std::byte>> load(const std::filesystem::path& path, std::size
   struct stat status {};
   const bool known = ::fstat(fd, &status) == 0 && S_ISREG(status.st_mode);
   const std::size_t expected = known ? static_cast<std::size_t>(status.st_size) : 65536;
-  auto bytes = expected > most
-                   ? fail(ErrorCode::over_budget, path.string() + ": its " + std::to_string(expected >> 20) +
-                                                      " MB exceed the memory budget of " + std::to_string(most >> 20) +
-                                                      " MB; allow more memory")
-                   : read_all(fd, expected, most, path);
+  auto bytes = expected > most ? fail(ErrorCode::over_budget, detail::shown_path(path.string()) + ": its " +
+                                                                  std::to_string(expected >> 20) +
+                                                                  " MB exceed the memory budget of " +
+                                                                  std::to_string(most >> 20) + " MB; allow more memory")
+                               : read_all(fd, expected, most, path);
   ::close(fd);
   return bytes;
 }
@@ -168,7 +175,7 @@ Result<MeshFile> read_mesh(std::span<const std::byte> bytes, std::string_view na
         "", "neither its content nor its extension is that of STL, OBJ, PLY, OFF or 3MF; export one of these");
   auto file = reader(context);
   if (!file) return file;
-  return finished(std::move(*file), context);
+  return finished(std::move(*file), name, context);
 }
 
 Result<MeshFile> read_mesh(const std::filesystem::path& path, const ReadOptions& options, const Job& job) {

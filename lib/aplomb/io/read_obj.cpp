@@ -23,7 +23,7 @@ class ObjReader {
         context_.note("free-form curves and surfaces were ignored");
       if (!done) return tl::unexpected<Error>(done.error());
     }
-    return single_object("OBJ", names_ == 1 ? std::string(name_) : "", mesh_.take());
+    return single_object("OBJ", names_ == 1 ? short_name(name_) : "", mesh_.take());
   }
 
  private:

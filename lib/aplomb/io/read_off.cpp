@@ -43,9 +43,10 @@ class OffReader {
     if (!vertices || !faces || *vertices < 0 || *faces < 0)
       return context_.unusable(text_.place(), "expected the numbers of vertices and faces; export the model again");
     if (*vertices > room / 4 || *faces > room / 4)
-      return context_.unusable(text_.place(), "the header promises " + std::to_string(*vertices) + " vertices and " +
-                                                  std::to_string(*faces) +
-                                                  " faces, more than the file can hold; it was cut short");
+      return context_.unusable(text_.place(),
+                               "the header promises " + std::to_string(*vertices) + " vertices and " +
+                                   std::to_string(*faces) +
+                                   " faces, more than the file can hold; it was cut short, save it again");
     text_.next_line();  // the number of edges means nothing
     vertices_ = static_cast<std::size_t>(*vertices);
     faces_ = static_cast<std::size_t>(*faces);

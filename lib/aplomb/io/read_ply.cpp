@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <bit>
 
-#include "aplomb/core/printable.h"
 #include "aplomb/io/detail/ply_header.h"
 #include "aplomb/io/detail/polygon.h"
 #include "aplomb/io/detail/readers.h"
@@ -125,7 +124,7 @@ class PlyReader {
       for (int axis = 0; axis < 3; ++axis) axes_[axis] = element.find(std::string_view("xyz").substr(axis, 1));
       for (const std::size_t axis : axes_)
         if (axis == element.properties.size() || element.properties[axis].count_type)
-          return context_.unusable("", "its vertices lack x, y or z; export the model again");
+          return context_.unusable(header_line(element), "its vertices lack x, y or z; export the model again");
       if (auto reserved = mesh_.reserve(element.count, 0); !reserved) return reserved;
     }
     Vec3 position;
@@ -147,8 +146,8 @@ class PlyReader {
   Result<void> read_corners(const PlyElement& element, bool allow_minus_one) {
     const std::size_t indices = std::min(element.find("vertex_indices"), element.find("vertex_index"));
     if (indices == element.properties.size() || !element.properties[indices].count_type)
-      return context_.unusable(
-          "", "its elements " + in_quotes(element.name) + " lack a list vertex_indices; export the model again");
+      return context_.unusable(header_line(element), "its elements " + in_quotes(element.name) +
+                                                         " lack a list vertex_indices; export the model again");
     corners_.clear();
     for (std::size_t p = 0; p < element.properties.size(); ++p) {
       const PlyProperty& property = element.properties[p];
@@ -208,7 +207,11 @@ class PlyReader {
     return source_.skip(property.type, static_cast<std::size_t>(count));
   }
 
-  std::string place(const PlyElement& element) const { return printable(element.name, 40) + " " + std::to_string(at_); }
+  static std::string header_line(const PlyElement& element) { return "line " + std::to_string(element.line); }
+  std::string place(const PlyElement& element) const {
+    const bool is_known = element.name == "vertex" || element.name == "face" || element.name == "tristrips";
+    return (is_known ? std::string(element.name) : "element " + in_quotes(element.name)) + " " + std::to_string(at_);
+  }
   tl::unexpected<Error> broken(const PlyElement& element) const {
     return context_.unusable(place(element),
                              "the data end here or are no numbers; the file was cut short, save it again");
@@ -247,7 +250,7 @@ Result<MeshFile> read_ply(ReadContext& context) {
     case PlyEncoding::big_endian:
       return PlyReader<BinarySource<true>>(context, *header).read();
   }
-  return context.unusable("", "its encoding is unknown; save it as ASCII");
+  return context.unusable("byte 0", "its encoding is unknown; save it as ASCII");
 }
 
 }  // namespace aplomb::detail

@@ -39,7 +39,7 @@ class AsciiReader {
     if (in_facet_)
       return context_.unusable(text_.place(), "the file ends within a facet; it was cut short, save it again");
     if (!ended_) context_.note("the ASCII STL has no endsolid line; it may have been cut short");
-    return single_object("ASCII STL", std::string(name_), mesh_.take());
+    return single_object("ASCII STL", short_name(name_), mesh_.take());
   }
 
  private:

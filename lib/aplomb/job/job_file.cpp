@@ -14,7 +14,8 @@
 namespace aplomb {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = nlohmann::ordered_json;  // as it is written; it searches all keys for each
+using ReadJson = nlohmann::json;
 using detail::degree;
 using detail::degrees_of;
 namespace fs = std::filesystem;
@@ -34,13 +35,13 @@ Vec3 axis(std::size_t up_name) {
   return v;
 }
 
-Vec3 vec_of(const Json& json) { return {json[0].get<double>(), json[1].get<double>(), json[2].get<double>()}; }
+Vec3 vec_of(const ReadJson& json) { return {json[0].get<double>(), json[1].get<double>(), json[2].get<double>()}; }
 Json json_of(Vec3 v) { return Json::array({v.x, v.y, v.z}); }
 
 /// Puts what the JSON has into the fields it is shown. \pre The JSON has passed the schema.
 class Reader {
  public:
-  Reader(const Json& json, const fs::path& folder) : json_(json), folder_(folder) {}
+  Reader(const ReadJson& json, const fs::path& folder) : json_(json), folder_(folder) {}
 
   template <class T>
   void value(const char* key, T& field) const {
@@ -95,12 +96,12 @@ class Reader {
   }
   void points(const char* key, std::vector<Vec3>& field) const {
     if (const auto at = json_.find(key); at != json_.end())
-      for (const Json& point : *at) field.push_back(vec_of(point));
+      for (const ReadJson& point : *at) field.push_back(vec_of(point));
   }
   template <class Item, class Visit>
   void list(const char* key, std::vector<Item>& field, const Visit& visit) const {
     if (const auto at = json_.find(key); at != json_.end())
-      for (const Json& item : *at) visit(Reader(item, folder_), field.emplace_back());
+      for (const ReadJson& item : *at) visit(Reader(item, folder_), field.emplace_back());
   }
   template <class Visit>
   void group(const char* key, const Visit& visit) const {
@@ -111,7 +112,7 @@ class Reader {
     const auto at = json_.find(key);
     if (at == json_.end()) return;
     field.clear();
-    for (const Json& pose : *at) {
+    for (const ReadJson& pose : *at) {
       field.emplace_back();
       if (pose.contains("hang")) field.back().pose.way = HangingPose{};
       visit(Reader(pose, folder_), field.back());
@@ -119,7 +120,7 @@ class Reader {
   }
 
  private:
-  const Json& json_;
+  const ReadJson& json_;
   const fs::path& folder_;
 };
 
@@ -229,13 +230,15 @@ bool nests_too_deep(std::string_view text) {
 
 Result<JobFile> parse_job(std::string_view text, const fs::path& folder) {
   if (nests_too_deep(text))
-    return fail(ErrorCode::invalid_option, "the job nests deeper than 100 levels, which no job needs");
-  Json json;
+    return fail(ErrorCode::invalid_option,
+                "the job nests deeper than 100 levels, which no job needs; save it anew (--save-job)");
+  ReadJson json;
   try {
-    json = Json::parse(text);
-  } catch (const Json::exception& error) {  // "[json.exception.parse_error.101] parse error at line 1, ..."
+    json = ReadJson::parse(text);
+  } catch (const ReadJson::exception& error) {  // "[json.exception.parse_error.101] parse error at line 1, ..."
     const std::string what = error.what();
-    return fail(ErrorCode::invalid_option, "the job is no JSON:" + printable(what.substr(what.find(']') + 1), 300));
+    return fail(ErrorCode::invalid_option, "the job is no JSON:" + printable(what.substr(what.find(']') + 1), 300) +
+                                               "; mend it there, or save it anew (--save-job)");
   }
   if (std::string problem = find_schema_problem(text); !problem.empty())
     return fail(ErrorCode::invalid_option, std::move(problem));

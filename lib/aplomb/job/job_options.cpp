@@ -79,9 +79,9 @@ Result<StandOptions> with_profile(StandOptions options, const JobFile& job) {
 
 std::string find_problem(const JobFile& job) {
   if (job.options.ballast == Ballasting::only && job.profile.empty())
-    return "ballast is infill of more than one density: name the profile that it is sliced with";
+    return "ballast is infill of more than one density; name the profile that it is sliced with";
   if (job.options.ballast == Ballasting::only && !holds_ballast(job))
-    return fmt::format("{} cannot hold ballast: write a .3mf, or the volume of denser infill on its own (modifier)",
+    return fmt::format("{} cannot hold ballast; write a .3mf, or the volume of denser infill on its own (modifier)",
                        job.output.string());
   for (const std::string& text : job.inserts)
     if (const auto stock = parse_insert(text); !stock) return stock.error().message;
@@ -101,9 +101,11 @@ Result<JobFile> read_job(const std::filesystem::path& file) {
   std::string text(static_cast<std::size_t>(most_bytes + 1), '\0');
   stream.read(text.data(), most_bytes + 1);
   if (stream.bad() || (stream.gcount() == 0 && !stream.eof()))
-    return fail(ErrorCode::file_system, fmt::format("{}: the job cannot be read", file.string()));
+    return fail(ErrorCode::file_system, fmt::format("{}: the job cannot be read; check its name", file.string()));
   if (stream.gcount() > most_bytes)
-    return fail(ErrorCode::invalid_option, fmt::format("{}: a job has at most 1 MB", file.string()));
+    return fail(
+        ErrorCode::invalid_option,
+        fmt::format("{}: it is longer than 1 MB, as no job is; give a file that --save-job wrote", file.string()));
   text.resize(static_cast<std::size_t>(stream.gcount()));
   auto job = parse_job(text, file.parent_path());
   if (!job) return fail(job.error().code, fmt::format("{}: {}", file.string(), job.error().message));

@@ -10,12 +10,13 @@
 namespace aplomb {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = nlohmann::ordered_json;  // the schema, whose keys are told in its order; it searches all of them for each
+using Document = nlohmann::json;
 
 /// A value and the part of the schema that speaks of it.
 struct JobPlace {
   std::string name;  ///< "poses[0].stand"
-  const Json* value = nullptr;
+  const Document* value = nullptr;
   const Json* schema = nullptr;
 };
 
@@ -30,7 +31,7 @@ const Json* child_schema(const Json& root, const Json& schema, const std::string
 }
 
 /// Follows the path as far as the schema speaks of single values.
-JobPlace place_of(const Json& root, const Json& document, const std::vector<std::string>& path) {
+JobPlace place_of(const Json& root, const Document& document, const std::vector<std::string>& path) {
   JobPlace place{"", &document, &root};
   for (const std::string& step : path) {
     const bool is_index = place.value->is_array();
@@ -116,10 +117,11 @@ std::string problem_of_object(const JobPlace& place) {
 std::string find_schema_problem(std::string_view text) {
   const auto violation = adapters::find_violation(job_schema(), text);
   if (!violation) return {};
-  const Json root = Json::parse(job_schema()), document = Json::parse(text);
+  const Json root = Json::parse(job_schema());
+  const Document document = Document::parse(text);
   const JobPlace place = place_of(root, document, violation->path);
   if (place.value->is_object() && place.schema->contains("properties")) return problem_of_object(place);
-  const std::string value = printable(place.value->dump(-1, ' ', false, Json::error_handler_t::replace), 57);
+  const std::string value = printable(place.value->dump(-1, ' ', false, Document::error_handler_t::replace), 57);
   return fmt::format("{} is {} but must be {}", place.name.empty() ? "the job" : place.name, value,
                      allowed_by(*place.schema));
 }

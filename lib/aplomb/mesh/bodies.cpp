@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-#include "aplomb/mesh/detail/crossings.h"
+#include "aplomb/core/pulse.h"
+#include "aplomb/mesh/detail/nesting.h"
 #include "aplomb/mesh/detail/soup.h"
 
 namespace aplomb {
@@ -29,31 +30,37 @@ TriangleMesh part_of(const TriangleMesh& mesh, const std::vector<std::uint32_t>&
 
 }  // namespace
 
-std::vector<TriangleMesh> split_prints(const TriangleMesh& mesh) {
-  if (mesh.triangles.empty()) return {};
-  const TriangleMesh whole = detail::welded(mesh);  // the same triangles in the same order
-  const detail::Components components = edge_components(whole, detail::EdgeTable(whole));
-  if (components.count == 1) return {mesh};
-  const detail::TriangleTree tree(whole);
-  detail::DisjointSets prints(components.count);
-  for (const auto [low, high] : meeting_components(whole, tree, components)) prints.join(low, high);
-  const auto enclosing = enclosures(whole, tree, components);
-  for (std::uint32_t c = 0; c < components.count; ++c)
-    for (const detail::Enclosure& e : enclosing[c]) prints.join(c, e.component);
+Result<PrintNumbers> number_prints(const TriangleMesh& mesh, const Job& job) {
+  if (mesh.triangles.empty()) return PrintNumbers{};
+  const Result<TriangleMesh> welded = detail::welded(mesh, job.part(0, 0.25));
+  if (!welded) return tl::unexpected(welded.error());
+  const TriangleMesh& whole = *welded;  // the same triangles in the same order
+  const Pulse pulse(job, 0.3, "check");
+  const detail::EdgeTable edges(whole, pulse);
+  detail::Components components = edge_components(whole, edges, pulse);
+  if (pulse.stopped()) return cancelled();
+  if (components.count == 1) return PrintNumbers{std::move(components.of_triangle), 1};
+  detail::Nesting nesting(whole, edges, components, pulse);
+  if (pulse.stopped()) return cancelled();
+  auto sets = nesting.connected(job.part(0.5, 1));
+  if (!sets) return tl::unexpected(sets.error());
+  return detail::numbered(std::move(components), *sets);
+}
 
-  std::vector<std::uint32_t> number(components.count);
-  std::uint32_t count = 0;
-  for (std::uint32_t c = 0; c < components.count; ++c) {
-    const std::uint32_t root = prints.find(c);  // the smallest member
-    number[c] = root == c ? count++ : number[root];
-  }
-  if (count == 1) return {mesh};
-  std::vector<std::vector<std::uint32_t>> triangles(count);
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) triangles[number[components.of_triangle[t]]].push_back(t);
-  std::vector<std::uint32_t> places(mesh.vertices.size());
+Result<std::vector<TriangleMesh>> split_prints(const TriangleMesh& mesh, const Job& job) {
   std::vector<TriangleMesh> parts;
-  parts.reserve(count);
-  for (const auto& members : triangles) parts.push_back(part_of(mesh, members, places));
+  const auto prints = number_prints(mesh, job.part(0, 0.8));
+  if (!prints) return tl::unexpected(prints.error());
+  if (prints->count == 1) return std::vector{mesh};
+  std::vector<std::vector<std::uint32_t>> triangles(prints->count);
+  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) triangles[prints->of_triangle[t]].push_back(t);
+  std::vector<std::uint32_t> places(mesh.vertices.size());
+  parts.reserve(prints->count);
+  for (const auto& members : triangles) {
+    if (parts.size() % 65536 == 0 && !job.report(0.8 + 0.2 * double(parts.size()) / prints->count, "check"))
+      return cancelled();
+    parts.push_back(part_of(mesh, members, places));
+  }
   return parts;
 }
 

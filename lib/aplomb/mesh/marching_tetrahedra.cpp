@@ -184,10 +184,14 @@ class Mesher {
 
 }  // namespace
 
-TriangleMesh marching_tetrahedra(std::span<const CornerCell> cells, double voxel_mm, Vec3 origin_mm) {
+TriangleMesh marching_tetrahedra(std::span<const CornerCell> cells, double voxel_mm, Vec3 origin_mm,
+                                 const Pulse& pulse) {
   assert(voxel_mm > 0);
   Mesher mesher(cells, voxel_mm, origin_mm);
-  for (const CornerCell& cell : cells) mesher.add(cell);
+  for (const CornerCell& cell : cells) {
+    if (!pulse.goes_on()) break;
+    mesher.add(cell);
+  }
   return mesher.take();
 }
 

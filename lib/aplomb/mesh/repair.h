@@ -50,6 +50,7 @@ struct RepairReport {
 struct Repaired {
   SolidMesh solid;
   RepairReport report;
+  PrintNumbers prints;  ///< of the solid's triangles
 };
 
 /// Makes a solid of a mesh that may have any defect, changing as little as does, and says what it did:

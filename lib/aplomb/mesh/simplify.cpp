@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "aplomb/core/pulse.h"
 #include "aplomb/mesh/detail/corner_table.h"
 #include "aplomb/mesh/detail/facet.h"
 #include "aplomb/mesh/detail/quadric.h"
@@ -18,6 +19,7 @@ using detail::Facet;
 using detail::Quadric;
 
 constexpr std::uint32_t none = CornerTable::none;
+constexpr std::uint32_t triangles_a_step = 8;  // about a microsecond
 constexpr std::uint32_t most_valence = 24;
 constexpr double least_turn_cosine = 0.5;
 constexpr double least_height_ratio = 0.05;  // of the longest edge, unless the triangles replaced were worse
@@ -30,11 +32,12 @@ constexpr double length_weight = 1e-6;                     // breaks ties in fla
 
 class Simplifier {
  public:
-  Simplifier(const TriangleMesh& fine, double deviation, const std::vector<bool>& kept)
+  /// Where the pulse stopped, of no use.
+  Simplifier(const TriangleMesh& fine, double deviation, const std::vector<bool>& kept, const Pulse& pulse)
       : fine_(fine),
         kept_(kept),
         squared_deviation_(deviation * deviation),
-        table_(fine),
+        table_(fine, pulse),
         quadrics_(fine.vertices.size()),
         shapes_(fine.triangles.size()),
         points_(fine.vertices),
@@ -42,6 +45,7 @@ class Simplifier {
         outlooks_(fine.vertices.size()),
         touched_(fine.vertices.size(), 0) {
     for (std::uint32_t t = 0; t < fine.triangles.size(); ++t) {
+      if (t % triangles_a_step == 0 && !pulse.goes_on()) return;
       const Triangle& corners = fine.triangles[t];
       const Facet facet(at(corners[0]), at(corners[1]), at(corners[2]));
       if (!(facet.doubled_area() > 0)) continue;
@@ -51,8 +55,10 @@ class Simplifier {
       for (const std::uint32_t v : corners) quadrics_[v] += quadric;
     }
     next_points_.assign(points_.size(), none);
-    for (Corner c = 0; c < 3 * fine.triangles.size(); ++c)
+    for (Corner c = 0; c < 3 * fine.triangles.size(); ++c) {
+      if (c % triangles_a_step == 0 && !pulse.goes_on()) return;
       if (c < table_.twin(c)) watch_sharp(c);
+    }
   }
 
   /// False: cancelled.
@@ -284,8 +290,9 @@ Result<SimplifiedMesh> simplify(const TriangleMesh& fine, double deviation_mm, c
                                 const Job& job) {
   assert(deviation_mm > 0);
   assert(kept.empty() || kept.size() == fine.vertices.size());
-  if (!job.report(0, "simplify")) return cancelled();
-  Simplifier simplifier(fine, deviation_mm, kept);
+  const Pulse pulse(job, 0, "simplify");
+  Simplifier simplifier(fine, deviation_mm, kept, pulse);
+  if (pulse.stopped()) return cancelled();
   if (!simplifier.run(job)) return cancelled();
   return simplifier.result();
 }

@@ -9,6 +9,7 @@
 #include "aplomb/core/error.h"
 #include "aplomb/core/job.h"
 #include "aplomb/mesh/mass_properties.h"
+#include "aplomb/mesh/print_numbers.h"
 #include "aplomb/mesh/triangle_mesh.h"
 
 namespace aplomb {
@@ -64,10 +65,11 @@ class SolidMesh {
 struct SolidCheck {
   MeshDefects defects;
   std::optional<SolidMesh> solid;  ///< set exactly when defects.none()
+  PrintNumbers prints;             ///< of the solid, as number_prints() would tell them
 };
 
 /// Rounds to float32, then tests every promise of SolidMesh with exact predicates (CGAL).
-/// \return unusable_input for an empty mesh; cancelled.
+/// \return unusable_input for an empty mesh, or more nested surfaces than can be sorted out; cancelled.
 /// \par Cost  O(n log n); 0.2 s of CPU for 100k triangles.
 Result<SolidCheck> check_solid(const TriangleMesh& mesh, const Job& job = {});
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "aplomb/adapters/embree/surface_distance.h"
+#include "aplomb/core/pulse.h"
 #include "aplomb/mesh/detail/topology.h"
 #include "aplomb/mesh/mass_properties.h"
 #include "aplomb/printability/detail/basins.h"
@@ -39,16 +40,22 @@ using Pair = std::pair<std::uint32_t, std::uint32_t>;
 /// Finds basins and the passages between them.
 class CavitySearch {
  public:
-  CavitySearch(const EmptySpace& space, const ClearanceLattice& lattice, double rho_mm)
-      : space_(space), lattice_(lattice), rho_(rho_mm), basins_(lattice, least_ratio * rho_mm, same_basin_ratio) {}
+  CavitySearch(const EmptySpace& space, const ClearanceLattice& lattice, double rho_mm, const Job& job)
+      : space_(space),
+        lattice_(lattice),
+        rho_(rho_mm),
+        pulse_(job, 0, "follow escape paths"),
+        basins_(lattice, least_ratio * rho_mm, same_basin_ratio, pulse_) {}
+  CavitySearch(const CavitySearch&) = delete;  // the basins have the pulse
+  CavitySearch& operator=(const CavitySearch&) = delete;
 
-  Result<std::vector<Cavity>> find(const Job& job);
+  Result<std::vector<Cavity>> find();
 
  private:
-  Result<void> drop_narrow_basins(const Job& job);
+  void drop_narrow_basins();
   std::map<Pair, std::vector<Basins::Contact>> patches();
   const Passage& passage(const Basins::Contact& contact);
-  Result<void> merge_wide_open(const Job& job);
+  void merge_wide_open();
   std::vector<Cavity> cavities();
   void measure(std::vector<Cavity>& cavities, const std::map<std::uint32_t, std::size_t>& cavity_of);
   std::uint32_t basin_beside(std::uint32_t element) const;
@@ -57,15 +64,16 @@ class CavitySearch {
   const EmptySpace& space_;
   const ClearanceLattice& lattice_;
   const double rho_;
+  const Pulse pulse_;
   Basins basins_;
   std::map<std::pair<VoxelIndex, VoxelIndex>, Passage> passages_;
 };
 
 /// Where no ball finds room is only a part of the way to somewhere else.
-Result<void> CavitySearch::drop_narrow_basins(const Job& job) {
+void CavitySearch::drop_narrow_basins() {
   for (std::uint32_t basin = 1; basin < basins_.count(); ++basin)
     if (basins_.is_root(basin)) {
-      if (!job.report(0.1, "follow escape paths")) return cancelled();
+      if (!pulse_.goes_on(1000)) return;
       const double step = std::max(0.25 * lattice_.frame().voxel_mm, 0.25 * basins_.peak_mm(basin));
       const detail::Peak peak = detail::climb(space_, basins_.peak_at_mm(basin), step);
       basins_.set_peak(basin, peak.at_mm, peak.clearance_mm);
@@ -74,7 +82,6 @@ Result<void> CavitySearch::drop_narrow_basins(const Job& job) {
     for (const std::uint32_t basin : {contact.basin_a, contact.basin_b})
       if (basins_.find(basin) != Basins::outside && basins_.peak_mm(basins_.find(basin)) < rho_)
         basins_.merge(contact.basin_a, contact.basin_b);
-  return {};
 }
 
 /// For each two basins that touch, the widest contact of each separate place where they do, widest first.
@@ -103,19 +110,20 @@ const Passage& CavitySearch::passage(const Basins::Contact& contact) {
   const auto [entry, is_new] = passages_.try_emplace({contact.a, contact.b});
   if (is_new) {
     const double peak = std::min(basins_.peak_mm(contact.basin_a), basins_.peak_mm(contact.basin_b));
-    entry->second = detail::find_passage(space_, lattice_, basins_, contact, narrow_ratio * peak);
+    entry->second = detail::find_passage(space_, lattice_, basins_, contact, narrow_ratio * peak, pulse_);
   }
   return entry->second;
 }
 
-Result<void> CavitySearch::merge_wide_open(const Job& job) {
+void CavitySearch::merge_wide_open() {
   for (bool changed = true; changed;) {
     changed = false;
     for (const auto& [pair, contacts] : patches()) {
       const double peak = std::min(basins_.peak_mm(pair.first), basins_.peak_mm(pair.second));
       for (const Basins::Contact& contact : contacts) {
-        if (!job.report(0.5, "follow escape paths")) return cancelled();
-        if (passage(contact).clearance_mm < narrow_ratio * peak) continue;
+        const Passage& way = passage(contact);
+        if (pulse_.stopped()) return;
+        if (way.clearance_mm < narrow_ratio * peak) continue;
         basins_.merge(pair.first, pair.second);
         changed = true;
         break;
@@ -123,7 +131,6 @@ Result<void> CavitySearch::merge_wide_open(const Job& job) {
       if (changed) break;
     }
   }
-  return {};
 }
 
 bool is_in_an_opening(const Cavity& cavity, Vec3 point) {
@@ -177,6 +184,7 @@ void CavitySearch::measure(std::vector<Cavity>& cavities, const std::map<std::ui
   const double h = lattice_.frame().voxel_mm;
   for (std::uint32_t element = 0; element < lattice_.elements(); ++element) {
     if (cavities.empty() || !(lattice_.clearance_mm(element) > 0)) continue;
+    if (!pulse_.goes_on(3)) return;
     const auto found = cavity_of.find(basin_beside(element));
     if (found == cavity_of.end()) continue;
     const double cells = lattice_.is_wide_block(element) ? ClearanceLattice::points : 1;
@@ -214,10 +222,11 @@ std::vector<Cavity> CavitySearch::cavities() {
   return cavities;
 }
 
-Result<std::vector<Cavity>> CavitySearch::find(const Job& job) {
-  if (const auto dropped = drop_narrow_basins(job); !dropped) return tl::unexpected(dropped.error());
-  if (const auto merged = merge_wide_open(job); !merged) return tl::unexpected(merged.error());
-  std::vector<Cavity> found = cavities();
+Result<std::vector<Cavity>> CavitySearch::find() {
+  drop_narrow_basins();
+  merge_wide_open();
+  std::vector<Cavity> found = pulse_.stopped() ? std::vector<Cavity>{} : cavities();
+  if (pulse_.stopped()) return cancelled();
   const double ball = 4.0 / 3 * std::numbers::pi * rho_ * rho_ * rho_;
   std::erase_if(found, [&](const Cavity& cavity) { return cavity.volume_mm3 < least_volume_balls * ball; });
   for (Cavity& cavity : found) std::ranges::stable_sort(cavity.openings, std::greater<>{}, &Opening::diameter_mm);
@@ -278,7 +287,7 @@ Result<std::vector<Cavity>> find_cavities(const PrintedSolid& printed, double ho
   const auto lattice =
       ClearanceLattice::sample(space, spacing_ratio * rho, wide_ratio * rho, most_blocks, job.part(0, 0.8));
   if (!lattice) return tl::unexpected(lattice.error());
-  auto pockets = CavitySearch(space, *lattice, rho).find(job.part(0.8, 1));
+  auto pockets = CavitySearch(space, *lattice, rho, job.part(0.8, 1)).find();
   if (!pockets) return tl::unexpected(pockets.error());
   for (Cavity& pocket : *pockets)
     if (!pocket.openings.empty() || !is_in_a_shell(printed, pocket.deepest_mm)) found.push_back(std::move(pocket));

@@ -164,13 +164,17 @@ Result<std::vector<double>> solved_apart(const SparseSymmetric& matrix, const st
   const IsolationLimits limits{most_seconds, 1024 + static_cast<std::size_t>(2 * most / byte_per_mb)};
   const auto bytes = run_isolated([&] { return solve_bytes(matrix, right, columns, most); }, limits, job, "elasticity");
   if (!bytes) return tl::unexpected(bytes.error());
-  std::vector<double> values((bytes->size() - 1) / sizeof(double));
-  std::memcpy(values.data(), bytes->data() + 1, values.size() * sizeof(double));
-  if (bytes->front() == 'm')
+  const char kind = bytes->empty() ? 'f' : bytes->front();
+  const std::size_t expected = kind == 's' ? right.size() : kind == 'm' ? 1 : 0;
+  if (kind != 'f' && bytes->size() != 1 + expected * sizeof(double))
+    return fail(ErrorCode::third_party, "the elastic system's solution came back spoilt");
+  std::vector<double> values(expected);
+  if (expected > 0) std::memcpy(values.data(), bytes->data() + 1, expected * sizeof(double));
+  if (kind == 'm')
     return fail(ErrorCode::over_budget,
                 fmt::format("elasticity with {} unknowns would take {:.0f} MB; allowed are {:.0f}", matrix.size(),
                             values.front() / byte_per_mb, most / byte_per_mb));
-  if (bytes->front() != 's') return fail(ErrorCode::third_party, "CHOLMOD could not solve the elastic system");
+  if (kind != 's') return fail(ErrorCode::third_party, "CHOLMOD could not solve the elastic system");
   return values;
 }
 

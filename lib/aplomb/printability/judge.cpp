@@ -28,6 +28,8 @@ namespace {
 
 using Verdict = CheckResult::Verdict;
 
+constexpr double solid_error_ratio = 0.02;  // of the density
+
 /// Density of what stays in a closed void, of the printed material's: liquid resin, loose powder. Our choice.
 constexpr std::array<double, 4> trapped_ratios{0, 0.95, 0.45, 0.6};
 
@@ -247,9 +249,11 @@ class SolidJudge {
       return {};
     }
     const double trapped_ratio = trapped_ratios[static_cast<std::size_t>(options_.rules.process())];
-    std::vector<Region> inserts = options_.inserts;
-    for (Region& insert : inserts) insert.density_g_per_cm3 /= options_.density_g_per_cm3;
-    const auto measured = measure_stand(printed_, *options_.pose, trapped_ratio, std::move(inserts));
+    const double density_g_per_cm3 = options_.density_g_per_cm3;
+    std::vector<Region> body = options_.body;
+    if (body.empty()) body.push_back({printed_.solid.moments(), density_g_per_cm3, solid_error_ratio});
+    body.insert(body.end(), options_.inserts.begin(), options_.inserts.end());
+    const auto measured = measure_stand(printed_, *options_.pose, std::move(body), trapped_ratio * density_g_per_cm3);
     if (!measured) return tl::unexpected(measured.error());
     collector_.add(ids[0], measured->nominal);
     collector_.add(ids[1], measured->robust);
@@ -276,6 +280,7 @@ Result<Judgement> judge(const TriangleMesh& mesh, const JudgeOptions& options, c
   else collector.leave_out("mesh.orientation", "it is not closed");
   collector.add("mesh.intersection", measured->intersection);
   collector.add("mesh.degenerate", measured->degenerate);
+  if (!job.report(0.2, "judge")) return cancelled();
   if (meant) collector.add("mesh.roundtrip", {{roundtrip_error_ratio(*meant, mesh), {}, {}}});
   if (!measured->solid) {
     for (const CheckRule& rule : check_rules())

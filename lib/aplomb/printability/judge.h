@@ -35,6 +35,7 @@ struct JudgeOptions {
   std::optional<StandingPose> pose = StandingPose{};  ///< as it is printed and stands, up = +z; none: it does not stand
   Filling filling{};
   double density_g_per_cm3 = 1.24;  ///< in (0, 30); PLA
+  std::vector<Region> body{};       ///< the print as its infill has it; empty: solid throughout, of that density
   std::vector<Region> inserts{};    ///< that lie in closed voids and weigh besides the print
   bool fem = false;                 ///< whether strength.fem is asked for, which takes seconds
 };

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "aplomb/core/pulse.h"
 #include "aplomb/mesh/detail/corner_table.h"
 
 namespace aplomb {
@@ -31,8 +32,10 @@ struct Planes {
 /// Follows the loops of one closed surface.
 class Cutter {
  public:
-  Cutter(const TriangleMesh& mesh, const Planes& planes, std::size_t layers)
-      : mesh_(mesh), planes_(planes), corners_(mesh), starts_(layers + 1), seen_(mesh.triangles.size(), 0) {
+  /// Where the pulse stopped, of no use.
+  Cutter(const TriangleMesh& mesh, const Planes& planes, std::size_t layers, const Pulse& pulse)
+      : mesh_(mesh), planes_(planes), corners_(mesh, pulse), starts_(layers + 1), seen_(mesh.triangles.size(), 0) {
+    if (pulse.stopped()) return;
     for (const Vec3& v : mesh.vertices) levels_.push_back(planes.below(v.z));
     for (const Triangle& t : mesh.triangles)
       for (std::uint32_t k = lowest(t); k < highest(t); ++k) ++starts_[k + 1];
@@ -171,8 +174,10 @@ Result<Slices> cut_slices(const PrintedSolid& printed, double layer_mm, const Jo
   const std::size_t layers = planes.below(printed.solid.box().max.z);
   std::vector<Cutter> cutters;
   cutters.reserve(1 + printed.voids.size());
-  cutters.emplace_back(printed.outer, planes, layers);
-  for (const TriangleMesh& inner : printed.voids) cutters.emplace_back(inner, planes, layers);
+  const Pulse pulse(job, 0, "slice");
+  cutters.emplace_back(printed.outer, planes, layers, pulse);
+  for (const TriangleMesh& inner : printed.voids) cutters.emplace_back(inner, planes, layers, pulse);
+  if (pulse.stopped()) return cancelled();
 
   Slices slices{planes.plate_mm, layer_mm, std::vector<Slice>(layers)};
   for (std::uint32_t layer = 0; layer < layers; ++layer) {

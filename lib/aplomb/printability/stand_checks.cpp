@@ -10,7 +10,7 @@ namespace aplomb {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
-constexpr double print_error_ratio = 0.02, trapped_error_ratio = 0.05;  // of densities
+constexpr double trapped_error_ratio = 0.05;  // of densities
 
 Vec3 normal_of(const TriangleMesh& mesh, const Triangle& t) {
   return normalized(cross(mesh.vertices[t[1]] - mesh.vertices[t[0]], mesh.vertices[t[2]] - mesh.vertices[t[0]]));
@@ -46,16 +46,14 @@ std::vector<Place> tip_place(const Standing& standing, double tip_rad) {
 
 }  // namespace
 
-Result<StandMeasures> measure_stand(const PrintedSolid& printed, const StandingPose& pose, double trapped_ratio,
-                                    std::vector<Region> inserts) {
-  assert(trapped_ratio >= 0 && trapped_ratio <= 10);
-  std::vector<Region> body = std::move(inserts);
-  body.push_back({printed.solid.moments(), 1, print_error_ratio});
+Result<StandMeasures> measure_stand(const PrintedSolid& printed, const StandingPose& pose, std::vector<Region> body,
+                                    double trapped_g_per_cm3) {
+  assert(trapped_g_per_cm3 >= 0);
   const auto empty = measure_standing(printed.solid.mesh(), body, pose);
   if (!empty) return tl::unexpected(empty.error());
-  if (trapped_ratio > 0)
+  if (trapped_g_per_cm3 > 0)
     for (const TriangleMesh& inner : printed.voids)
-      body.push_back({-1 * moments(inner), trapped_ratio, trapped_error_ratio});
+      body.push_back({-1 * moments(inner), trapped_g_per_cm3, trapped_error_ratio});
   StandMeasures measures{
       tip_place(*empty, empty->stability.tip_rad), tip_place(*empty, empty->stability.robust_tip_rad), {}};
   if (printed.voids.empty()) return measures;

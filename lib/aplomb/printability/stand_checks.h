@@ -16,11 +16,11 @@ struct StandMeasures {
   std::vector<Place> trapped;  ///< with its closed voids full, degrees; none without voids
 };
 
-/// \param trapped_ratio  density of what stays in closed voids, of the printed material's. \pre in [0, 10].
-/// \param inserts  what weighs besides the print, with densities of the printed material's.
+/// \param body  what stands: the print, and what lies in it. \pre as in measure_standing().
+/// \param trapped_g_per_cm3  density of what stays in closed voids. \pre at least 0.
 /// \return as support_polygon().
-Result<StandMeasures> measure_stand(const PrintedSolid& printed, const StandingPose& pose, double trapped_ratio,
-                                    std::vector<Region> inserts = {});
+Result<StandMeasures> measure_stand(const PrintedSolid& printed, const StandingPose& pose, std::vector<Region> body,
+                                    double trapped_g_per_cm3);
 
 /// How a slicer fills a print.
 struct Filling {

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "aplomb/adapters/embree/surface_distance.h"
+#include "aplomb/core/pulse.h"
 #include "aplomb/printability/detail/spots.h"
 #include "aplomb/printability/detail/surface_samples.h"
 #include "aplomb/printability/walls.h"
@@ -93,10 +94,9 @@ std::optional<std::vector<Place>> thin_spots(const Thickness& thickness, const d
     }
   }
   std::vector<Place> spots;
-  bool goes_on = true;
-  const auto groups = detail::groups_within(points, std::max(limit_mm, 2 * surface.spacing_mm),
-                                            [&] { return goes_on = job.report(0.5, "measure thin walls"); });
-  if (!goes_on) return std::nullopt;
+  const Pulse pulse(job, 0.5, "measure thin walls");
+  const auto groups = detail::groups_within(points, std::max(limit_mm, 2 * surface.spacing_mm), pulse);
+  if (pulse.stopped()) return std::nullopt;
   for (const auto& group : groups) {
     Place spot;
     spot.measured = std::numeric_limits<double>::infinity();
@@ -138,7 +138,9 @@ Result<std::vector<Place>> wall_thin(const PrintedSolid& printed, const Rules& r
   if (!limit || printed.outer.triangles.empty()) return places;
   const double diagonal = bounding_box(printed.outer).diagonal();
   const double limit_mm = std::max(*limit, 1e-4 * diagonal);
-  const auto surface = detail::sample_surface(printed.outer, spacing_ratio * limit_mm, most_samples);
+  const Pulse pulse(job, 0, "measure thin walls");
+  const auto surface = detail::sample_surface(printed.outer, spacing_ratio * limit_mm, most_samples, pulse);
+  if (pulse.stopped()) return cancelled();
   const Thickness thickness(printed.outer);
   const std::size_t stride = 1 + surface.samples.size() / few_samples;
   double below = 2 * limit_mm;

@@ -177,6 +177,10 @@ std::string to_string(Outcome outcome) {
   return "falls";
 }
 
+std::string to_json(const PoseReport& pose, std::size_t number) {
+  return json(pose, number).dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
 std::string to_json(const Report& report) {
   Json object{{"version", report.version}, {"outcome", to_string(report.outcome)}};
   if (report.has_standing_pose()) {

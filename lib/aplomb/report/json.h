@@ -11,6 +11,9 @@ namespace aplomb {
 /// `required_tip_deg`, `before` and `after` are of the first standing pose, `poses` lists every pose.
 std::string to_json(const Report& report);
 
+/// An entry of `poses`, the number-th of them (from 1 on), on one line.
+std::string to_json(const PoseReport& pose, std::size_t number);
+
 /// "already_stands", "stands", "best_effort" or "falls".
 std::string to_string(Outcome outcome);
 

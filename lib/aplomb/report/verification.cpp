@@ -92,26 +92,6 @@ Json json(const VerifiedObject& object) {
   return out;
 }
 
-Vec3 vector_of(const Json& json) {
-  return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
-}
-
-/// The measure of the first standing pose. \pre as nlohmann's at(): it throws where a key is missing.
-ExpectedPrint expected_of(const Json& report) {
-  const Json& standing = report.contains("after") ? report.at("after") : report.at("before");
-  ExpectedPrint expected{.mass_g = standing.at("mass_g").get<double>(),
-                         .com_mm = vector_of(standing.at("com_mm")),
-                         .com_height_mm = standing.at("com_height_mm").get<double>(),
-                         .tip_rad = standing.at("tip_deg").get<double>() * std::numbers::pi / 180};
-  expected.density_g_per_cm3 = 1e3 * expected.mass_g / standing.at("volume_mm3").get<double>();
-  Box3 support;
-  for (const Json& corner : standing.at("support_polygon_mm")) support.add(vector_of(corner));
-  expected.support_center_mm = {(support.min.x + support.max.x) / 2, (support.min.y + support.max.y) / 2};
-  if (const auto box = standing.find("box_mm"); box != standing.end())
-    expected.box_mm = Box3{vector_of(box->at(0)), vector_of(box->at(1))};
-  return expected;
-}
-
 }  // namespace
 
 std::string to_text(const Verification& v) {
@@ -144,21 +124,6 @@ std::string to_json(const Verification& v) {
     out["left_out"].push_back({{"what", part.what}, {"mass_g", part.mass_g}});
   out["notes"] = v.plate.notes;
   return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
-Result<ExpectedPrint> expected_print(std::string_view report_json) {
-  try {
-    const Json report = Json::parse(report_json);
-    const Json& poses = report.at("poses");
-    const auto pose = std::ranges::find_if(poses, [](const Json& p) { return p.at("kind") == "standing"; });
-    if (pose == poses.end()) return fail(ErrorCode::unusable_input, "the report has no pose that stands");
-    if (dot(vector_of(pose->at("up")), {0, 0, 1}) < 1 - 1e-9)
-      return fail(ErrorCode::unusable_input, "the report's pose has another way up than z, as which it is printed");
-    const ExpectedPrint expected = expected_of(report);
-    if (expected.mass_g > 0) return expected;
-  } catch (const Json::exception&) {  // the library's own way to say that a key is missing
-  }
-  return fail(ErrorCode::unusable_input, "this is no report that aplomb stand or check wrote (--report)");
 }
 
 }  // namespace aplomb

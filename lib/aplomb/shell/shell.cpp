@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "aplomb/core/pulse.h"
 #include "aplomb/mesh/detail/topology.h"
 #include "aplomb/mesh/marching_tetrahedra.h"
 #include "aplomb/shell/simplify_surface.h"
@@ -22,8 +23,9 @@ struct VoidSurface {
 };
 
 /// Components that enclose material instead of void float loose: they are taken out.
-VoidSurface without_loose_parts(const TriangleMesh& surface) {
-  const auto components = detail::edge_components(surface, detail::EdgeTable(surface));
+VoidSurface without_loose_parts(const TriangleMesh& surface, const Pulse& pulse) {
+  const auto components = detail::edge_components(surface, detail::EdgeTable(surface, pulse), pulse);
+  if (pulse.stopped()) return {};
   std::vector<double> volumes(components.count, 0.0);
   const Vec3 origin = bounding_box(surface).min;
   for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
@@ -56,10 +58,11 @@ Result<Shell> build_shell(const SolidMesh& solid, const VoidField& field, const 
   Shell shell{outer, outer.triangles.size(), 0, std::numeric_limits<double>::infinity(), 0};
   if (field.empty()) return shell;
   const VoxelFrame& frame = field.frame();
-  if (!job.report(0, "mesh the void")) return cancelled();
+  const Pulse pulse(job, 0, "mesh the void");
   const TriangleMesh fine =
-      rounded_to_float(marching_tetrahedra(boundary_cells(field), frame.voxel_mm, frame.origin_mm));
-  const VoidSurface surface = without_loose_parts(fine);
+      rounded_to_float(marching_tetrahedra(boundary_cells(field, pulse), frame.voxel_mm, frame.origin_mm, pulse));
+  const VoidSurface surface = without_loose_parts(fine, pulse);
+  if (pulse.stopped()) return cancelled();
   double wall_mm = 0;
   const auto find_thin = [&](const TriangleMesh& inner, const Job& part) -> Result<std::vector<std::uint32_t>> {
     auto wall = measure_wall(inner, outer, options.wall_mm, part);

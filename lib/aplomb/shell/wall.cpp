@@ -68,7 +68,7 @@ Result<WallMeasure> measure_wall(const TriangleMesh& inner, const TriangleMesh& 
   if (inner.triangles.empty() || outer.triangles.empty()) return WallMeasure{least, {}};
   const SurfaceDistance distance(outer);
   std::vector<Sample> samples(inner.vertices.size());
-  constexpr std::size_t batch = 1 << 14;  // between two looks at the job
+  constexpr std::size_t batch = 1 << 12;  // between two looks at the job
   for (std::size_t begin = 0; begin < samples.size(); begin += batch) {
     if (!job.report(0.5 * double(begin) / double(samples.size()), "measure the wall")) return cancelled();
     const std::size_t end = std::min(begin + batch, samples.size());

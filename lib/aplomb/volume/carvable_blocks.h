@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "aplomb/core/pulse.h"
 #include "aplomb/volume/solid_volume.h"
 
 namespace aplomb {
@@ -16,7 +17,7 @@ struct CarvableBlock {
   std::vector<float> shares;
 };
 
-/// The region that a SolidVolume allows to carve, in a fixed order.
-std::vector<CarvableBlock> carvable_blocks(const SolidVolume& volume);
+/// The region that a SolidVolume allows to carve, in a fixed order. Where the pulse stopped, a part of it.
+std::vector<CarvableBlock> carvable_blocks(const SolidVolume& volume, const Pulse& pulse = {});
 
 }  // namespace aplomb

@@ -2,6 +2,7 @@
 
 #include <polyclipping/clipper.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <exception>
 
@@ -12,10 +13,13 @@ namespace cl = ClipperLib;
 
 constexpr double units_per_mm = 1e6;  // below 1.07 m Clipper works in 64 bits, beyond in 128
 
-cl::IntPoint to_clipper(Vec2 p) {
-  return {static_cast<cl::cInt>(std::llround(p.x * units_per_mm)),
-          static_cast<cl::cInt>(std::llround(p.y * units_per_mm))};
+/// Where Clipper has no numbers (4.6e12 mm) it still gets one, and refuses it.
+cl::cInt to_clipper(double mm) {
+  constexpr double beyond = 5e18;
+  return std::llround(std::clamp(mm * units_per_mm, -beyond, beyond));
 }
+
+cl::IntPoint to_clipper(Vec2 p) { return {to_clipper(p.x), to_clipper(p.y)}; }
 
 cl::Paths to_clipper(const Polygons& polygons) {
   cl::Paths paths(polygons.size());

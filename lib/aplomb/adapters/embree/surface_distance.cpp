@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <new>
 #include <numeric>
 #include <vector>
 
@@ -126,14 +127,22 @@ void build_fans(const TriangleMesh& mesh, std::vector<std::uint32_t>& begin, std
     for (const std::uint32_t v : mesh.triangles[i]) fan[next[v]++] = i;
 }
 
+/// What Embree made; where it found no memory, the end is that of operator new.
+template <class Made>
+Made made(Made pointer) {
+  if (pointer) return pointer;
+  if (const auto handler = std::get_new_handler()) handler();
+  throw std::bad_alloc();
+}
+
 void add_triangles(RTCDevice device, RTCScene scene, const TriangleMesh& mesh) {
-  const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* positions = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                                3 * sizeof(float), mesh.vertices.size()));
+  const RTCGeometry geometry = made(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
+  auto* positions = static_cast<float*>(made(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), mesh.vertices.size())));
   for (const Vec3& v : mesh.vertices)
     for (int axis = 0; axis < 3; ++axis) *positions++ = static_cast<float>(v[axis]);
-  auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
-      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), mesh.triangles.size()));
+  auto* indices = static_cast<std::uint32_t*>(made(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), mesh.triangles.size())));
   for (const Triangle& t : mesh.triangles) indices = std::copy(t.begin(), t.end(), indices);
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(scene, geometry);
@@ -155,8 +164,8 @@ SurfaceDistance::SurfaceDistance(const TriangleMesh& mesh) {
   impl->discs.reserve(mesh.triangles.size());
   for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i)
     impl->discs.emplace_back(impl->corners(i), impl->origin, 1e-6 * box.diagonal());
-  impl->device.reset(rtcNewDevice("threads=1"));
-  impl->scene.reset(rtcNewScene(impl->device.get()));
+  impl->device.reset(made(rtcNewDevice("threads=1")));
+  impl->scene.reset(made(rtcNewScene(impl->device.get())));
   rtcSetSceneFlags(impl->scene.get(), RTC_SCENE_FLAG_ROBUST);
   add_triangles(impl->device.get(), impl->scene.get(), impl->mesh);
   rtcCommitScene(impl->scene.get());

@@ -12,7 +12,7 @@ using openvdb::Coord;
 /// Face-connected negative lattice points, whole tiles taken as one, joined by union-find.
 class Parts {
  public:
-  explicit Parts(FieldTree& field) : field_(field) {
+  Parts(FieldTree& field, const Pulse& pulse) : field_(field), pulse_(pulse) {
     number();
     join_neighbours();
   }
@@ -21,7 +21,7 @@ class Parts {
     std::vector<std::size_t> points(places_.size(), 0);
     for (std::uint32_t i = 0; i < places_.size(); ++i) points[root(i)] += places_[i].is_tile ? FieldLeaf::SIZE : 1;
     DroppedParts dropped;
-    for (std::uint32_t i = 0; i < places_.size(); ++i) {
+    for (std::uint32_t i = 0; i < places_.size() && pulse_.goes_on(); ++i) {
       const std::size_t size = points[root(i)];
       if (size >= least_points) continue;
       if (root(i) == i) dropped.parts += 1, dropped.points += size;
@@ -38,7 +38,7 @@ class Parts {
   };
 
   void number() {
-    for (auto leaf = field_.cbeginLeaf(); leaf; ++leaf)
+    for (auto leaf = field_.cbeginLeaf(); leaf && pulse_.goes_on(20); ++leaf)
       for (openvdb::Index n = 0; n < FieldLeaf::SIZE; ++n)
         if (leaf->getValue(n) < 0) add({leaf->offsetToGlobalCoord(n), false});
     for (const Coord& origin : field_blocks(field_).full) add({origin, true});
@@ -58,7 +58,7 @@ class Parts {
     const auto join_at = [&](std::uint32_t i, const Coord& neighbour) {
       if (const std::int32_t j = numbers.getValue(neighbour); j >= 0) join(i, static_cast<std::uint32_t>(j));
     };
-    for (std::uint32_t i = 0; i < places_.size(); ++i) {
+    for (std::uint32_t i = 0; i < places_.size() && pulse_.goes_on(); ++i) {
       const Coord at = places_[i].at;
       const int side = places_[i].is_tile ? leaf_size : 1;
       for (int u = 0; u < side; ++u)  // every place looks at its least and greatest faces: a point meets a tile too
@@ -82,6 +82,7 @@ class Parts {
   }
 
   FieldTree& field_;
+  const Pulse& pulse_;
   openvdb::Int32Tree numbers_{-1};
   std::vector<Place> places_;
   std::vector<std::uint32_t> parent_;
@@ -89,8 +90,8 @@ class Parts {
 
 }  // namespace
 
-DroppedParts drop_small_parts(FieldTree& field, std::size_t least_points) {
-  return least_points > 0 ? Parts(field).drop(least_points) : DroppedParts{};
+DroppedParts drop_small_parts(FieldTree& field, std::size_t least_points, const Pulse& pulse) {
+  return least_points > 0 ? Parts(field, pulse).drop(least_points) : DroppedParts{};
 }
 
 }  // namespace aplomb::adapters

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "aplomb/adapters/openvdb/grids.h"
+#include "aplomb/core/pulse.h"
 
 namespace aplomb::adapters {
 
@@ -28,16 +29,17 @@ Moments field_moments(const FieldTree& field, const VoxelFrame& frame);
 
 /// Raises the field where no ball of `radius` (in the field's unit) that lies inside reaches within `slack`:
 /// field(x) = max(field(x), min over p with field(p) <= -radius of |x - p| + field(p) - slack).
-/// Interior distances must be exact down to -radius.
-void open_by_ball(FieldTree& field, double radius, double slack, double voxel);
+/// Interior distances must be exact down to -radius. Where the pulse stopped, the field is of no use.
+void open_by_ball(FieldTree& field, double radius, double slack, double voxel, const Pulse& pulse);
 
 struct DroppedParts {
   std::size_t parts = 0;
   std::size_t points = 0;
 };
 
-/// Raises face-connected negative parts of fewer than `least_points` lattice points above zero.
-DroppedParts drop_small_parts(FieldTree& field, std::size_t least_points);
+/// Raises face-connected negative parts of fewer than `least_points` lattice points above zero. Where the pulse
+/// stopped, the field is of no use.
+DroppedParts drop_small_parts(FieldTree& field, std::size_t least_points, const Pulse& pulse);
 
 /// Moves values within `gap` of zero to +gap, so that no surface vertex falls on a lattice point.
 void push_from_zero(FieldTree& field, float gap);

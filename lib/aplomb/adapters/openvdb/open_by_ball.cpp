@@ -16,13 +16,15 @@ constexpr std::int32_t nobody = -1;
 /// neighbours pass on theirs (Danielsson's vector distance transform) until nothing changes.
 class Opening {
  public:
-  Opening(FieldTree& field, double radius, double voxel) : field_(field), radius_(radius), voxel_(voxel) {}
+  Opening(FieldTree& field, double radius, double voxel, const Pulse& pulse)
+      : field_(field), radius_(radius), voxel_(voxel), pulse_(pulse) {}
 
   void run(double slack) {
     collect();
     for (int sweep = 0; sweep < 64 && pass_on(sweep % 2 == 1); ++sweep) {
     }
     for (const Shallow& point : shallow_) {
+      if (!pulse_.goes_on()) return;
       const double opened = std::min<double>(point.reach - slack, field_.background());
       if (opened > field_.getValue(point.at)) field_.setValueOnly(point.at, static_cast<float>(opened));
     }
@@ -36,7 +38,7 @@ class Opening {
   };
 
   void collect() {
-    for (auto leaf = field_.cbeginLeaf(); leaf; ++leaf)
+    for (auto leaf = field_.cbeginLeaf(); leaf && pulse_.goes_on(20); ++leaf)
       for (openvdb::Index n = 0; n < FieldLeaf::SIZE; ++n) {
         const float value = leaf->getValue(n);
         if (value >= 0 || value <= -radius_) continue;
@@ -58,7 +60,7 @@ class Opening {
     bool changed = false;
     FieldReader values(field_);
     openvdb::tree::ValueAccessor<const IndexTree, false> indices(index_);
-    for (std::size_t n = 0; n < shallow_.size(); ++n) {
+    for (std::size_t n = 0; n < shallow_.size() && pulse_.goes_on(); ++n) {
       Shallow& point = shallow_[backward ? shallow_.size() - 1 - n : n];
       for (int d = 0; d < 27; ++d) {
         const Coord neighbour = point.at.offsetBy(d / 9 - 1, d / 3 % 3 - 1, d % 3 - 1);
@@ -68,20 +70,21 @@ class Opening {
           consider(point, shallow_[i].centre, values.getValue(shallow_[i].centre), changed);
       }
     }
-    return changed;
+    return changed && !pulse_.stopped();
   }
 
   FieldTree& field_;
   const double radius_;
   const double voxel_;
+  const Pulse& pulse_;
   IndexTree index_{nobody};
   std::vector<Shallow> shallow_;
 };
 
 }  // namespace
 
-void open_by_ball(FieldTree& field, double radius, double slack, double voxel) {
-  if (radius > 0) Opening(field, radius, voxel).run(slack);
+void open_by_ball(FieldTree& field, double radius, double slack, double voxel, const Pulse& pulse) {
+  if (radius > 0) Opening(field, radius, voxel, pulse).run(slack);
 }
 
 }  // namespace aplomb::adapters

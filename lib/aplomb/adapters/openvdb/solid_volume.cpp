@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "aplomb/adapters/embree/surface_distance.h"
 #include "aplomb/adapters/openvdb/field_operations.h"
+#include "aplomb/core/pulse.h"
 #include "aplomb/mesh/clipped_tetrahedron.h"
 #include "aplomb/volume/carvable_blocks.h"
 #include "aplomb/volume/void_anchors.h"
@@ -21,7 +23,8 @@ using openvdb::Coord;
 
 namespace {
 
-constexpr int root_size = 32;          // lattice points per side of the octree's roots
+constexpr int root_size = 32;  // lattice points per side of the octree's roots
+constexpr double most_voxels_a_side = 1e9;
 constexpr double exact_reach = 1.75;   // voxels: more than the diagonal of a cell
 constexpr double opening_slack = 0.5;  // voxels
 
@@ -147,7 +150,7 @@ Result<openvdb::FloatGrid::Ptr> sample_field(const SolidMesh& solid, const Voxel
   const Kept kept(solid);
   const std::vector<Coord> roots = root_origins(solid.box(), frame);
   auto grid = openvdb::FloatGrid::create(static_cast<float>(background_mm));
-  constexpr std::size_t batch = 32;  // between two looks at the job
+  const auto batch = 2 * static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());  // some 10 ms
   for (std::size_t begin = 0; begin < roots.size(); begin += batch) {
     if (!job.report(double(begin) / double(roots.size()), "voxelize")) return cancelled();
     std::vector<std::vector<Sampler::Block>> parts(std::min(batch, roots.size() - begin));
@@ -191,7 +194,13 @@ std::size_t estimated_bytes(const SolidMesh& solid, const VolumeOptions& options
   const double cells = surface_area_mm2(solid.mesh()) / (h * h);
   const double blocks = solid.moments().volume_mm3 / (512 * h * h * h);
   const double bytes = 600 * cells + 64 * blocks + 1000.0 * double(solid.mesh().triangles.size());
-  return static_cast<std::size_t>(std::min(bytes, 1e18));
+  // Of a needle, the box: a list of the octree's roots, and voxels that an int can number.
+  double roots = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double voxels = solid.box().size()[axis] / h;
+    roots *= voxels < most_voxels_a_side ? 1 + voxels / root_size : 1e18;
+  }
+  return static_cast<std::size_t>(std::min(std::max(bytes, sizeof(Coord) * roots), 1e18));
 }
 
 Result<SolidVolume> voxelize(const SolidMesh& solid, const VolumeOptions& options, const Job& job) {
@@ -207,9 +216,11 @@ Result<SolidVolume> voxelize(const SolidMesh& solid, const VolumeOptions& option
   const VoxelFrame frame{h, solid.box().min};
   const double depth = carving_depth_mm(options);
   const double background = std::max(0.5 * options.least_void_mm + h, exact_reach * h);
-  auto grid = sample_field(solid, frame, depth, background, job);
+  auto grid = sample_field(solid, frame, depth, background, job.part(0, 0.7));
   if (!grid) return tl::unexpected(grid.error());
-  adapters::open_by_ball((*grid)->tree(), 0.5 * options.least_void_mm, opening_slack * h, h);
+  const Pulse pulse(job, 0.7, "voxelize");
+  adapters::open_by_ball((*grid)->tree(), 0.5 * options.least_void_mm, opening_slack * h, h, pulse);
+  if (pulse.stopped()) return cancelled();
   return SolidVolume(std::make_shared<SolidVolume::Impl>(SolidVolume::Impl{frame, options, *grid}));
 }
 
@@ -223,11 +234,11 @@ const VolumeOptions& SolidVolume::options() const { return impl_->options; }
 std::size_t SolidVolume::stored_points() const { return impl_->field->tree().leafCount() * FieldLeaf::SIZE; }
 std::size_t SolidVolume::memory_bytes() const { return impl_->field->memUsage(); }
 
-std::vector<CarvableBlock> carvable_blocks(const SolidVolume& volume) {
+std::vector<CarvableBlock> carvable_blocks(const SolidVolume& volume, const Pulse& pulse) {
   const FieldTree& field = volume.impl().field->tree();
   const adapters::Blocks origins = adapters::field_blocks(field);
   std::vector<CarvableBlock> blocks(origins.mixed.size());
-  tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t n) {
+  const auto fill = [&](std::size_t n) {
     const Coord& origin = origins.mixed[n];
     blocks[n].origin = {origin[0], origin[1], origin[2]};
     const adapters::CornerValues corners = adapters::corner_values(adapters::FieldReader(field), origin);
@@ -240,7 +251,10 @@ std::vector<CarvableBlock> carvable_blocks(const SolidVolume& volume) {
                                : negative == 8 ? 1.0f
                                                : static_cast<float>(negative_part_of_unit_cube(values).volume_mm3);
     }
-  });
+  };
+  constexpr std::size_t batch = 512;  // some 20 ms
+  for (std::size_t begin = 0; begin < blocks.size() && pulse.goes_on(20'000); begin += batch)
+    tbb::parallel_for(begin, std::min(begin + batch, blocks.size()), fill);
   std::erase_if(blocks, [](const CarvableBlock& block) {
     return std::ranges::all_of(block.shares, [](float share) { return share == 0; });
   });

@@ -81,14 +81,16 @@ SolidVolume without_dropped(const SolidVolume& volume, const FieldTree& before, 
 
 }  // namespace
 
-VoidCut cut_void(const SolidVolume& volume, const AffineForm& kept, double least_volume_mm3) {
+Result<VoidCut> cut_void(const SolidVolume& volume, const AffineForm& kept, double least_volume_mm3, const Job& job) {
   const VoxelFrame frame = volume.frame();
   const double h = frame.voxel_mm;
   auto field = cut_field(*volume.impl().field, Plane(kept, frame));
-  adapters::open_by_ball(field->tree(), 0.5 * volume.options().least_void_mm, 0.5 * h, h);
+  const Pulse pulse(job, 1, "carve");
+  adapters::open_by_ball(field->tree(), 0.5 * volume.options().least_void_mm, 0.5 * h, h, pulse);
   const auto least_points = static_cast<std::size_t>(std::ceil(least_volume_mm3 / (h * h * h)));
   const auto before = field->deepCopy();
-  const adapters::DroppedParts dropped = adapters::drop_small_parts(field->tree(), least_points);
+  const adapters::DroppedParts dropped = adapters::drop_small_parts(field->tree(), least_points, pulse);
+  if (pulse.stopped()) return cancelled();
   adapters::push_from_zero(field->tree(), static_cast<float>(0.05 * h));
   const Moments moments = adapters::field_moments(field->tree(), frame);
   VoidCut cut{VoidField(std::make_shared<VoidField::Impl>(VoidField::Impl{frame, field}), moments), dropped.parts,
@@ -99,11 +101,12 @@ VoidCut cut_void(const SolidVolume& volume, const AffineForm& kept, double least
 
 const VoxelFrame& VoidField::frame() const { return impl_->frame; }
 
-std::vector<CornerCell> boundary_cells(const VoidField& field) {
+std::vector<CornerCell> boundary_cells(const VoidField& field, const Pulse& pulse) {
   const FieldTree& tree = field.impl().field->tree();
   const adapters::FieldReader reader(tree);
   std::vector<CornerCell> cells;
   for (const Coord& origin : adapters::field_blocks(tree).mixed) {
+    if (!pulse.goes_on(20)) break;
     const adapters::CornerValues corners = adapters::corner_values(reader, origin);
     for (int cell = 0; cell < CarvableBlock::cells; ++cell) {
       const int i = cell / 64, j = cell / 8 % 8, k = cell % 8;

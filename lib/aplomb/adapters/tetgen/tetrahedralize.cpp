@@ -8,6 +8,8 @@
 #include <string>
 #include <utility>
 
+#include "aplomb/mesh/detail/mesh_bytes.h"
+
 #define TETLIBRARY
 #include <tetgen.h>
 
@@ -32,12 +34,15 @@ void set_facet(tetgenio::facet& facet, const Triangle& triangle) {
   for (std::size_t corner = 0; corner < 3; ++corner) polygon.vertexlist[corner] = int(triangle[corner]);
 }
 
-template <class T>
-void append(std::string& bytes, const T* values, std::size_t count) {
-  bytes.append(reinterpret_cast<const char*>(values), count * sizeof(T));
+/// Items of an array of their numbers.
+template <class Item, class Number>
+std::vector<Item> items_of(const Number* numbers, int count) {
+  std::vector<Item> items(numbers && count > 0 ? std::size_t(count) : 0);
+  if (!items.empty()) std::memcpy(static_cast<void*>(items.data()), numbers, items.size() * sizeof(Item));
+  return items;
 }
 
-/// Two counts, the points' coordinates, the tetrahedra's corners.
+/// The vertices, then the tetrahedra.
 std::string tetgen_bytes(const TriangleMesh& surface, const std::vector<Vec3>& void_points, std::string switches) {
   tetgenio in, out;
   in.numberofpoints = int(surface.vertices.size());
@@ -53,29 +58,18 @@ std::string tetgen_bytes(const TriangleMesh& surface, const std::vector<Vec3>& v
     throw std::runtime_error(fmt::format("TetGen gave up (code {})", code));
   }
   std::string bytes;
-  append(bytes, &out.numberofpoints, 1);
-  append(bytes, &out.numberoftetrahedra, 1);
-  append(bytes, out.pointlist, 3 * std::size_t(out.numberofpoints));
-  append(bytes, out.tetrahedronlist, 4 * std::size_t(out.numberoftetrahedra));
+  detail::put(bytes, items_of<Vec3>(out.pointlist, out.numberofpoints));
+  detail::put(bytes, items_of<TetMesh::Tet>(out.tetrahedronlist, out.numberoftetrahedra));
   return bytes;
 }
 
 Result<TetMesh> mesh_of(const std::string& bytes) {
-  const char* at = bytes.data();
-  const auto read = [&](void* to, std::size_t size) {
-    std::memcpy(to, at, size);
-    at += size;
-  };
-  int points = 0, tets = 0;
-  if (bytes.size() < 2 * sizeof(int)) return fail(ErrorCode::third_party, "TetGen gave nothing");
-  read(&points, sizeof points);
-  read(&tets, sizeof tets);
-  TetMesh mesh;
-  mesh.vertices.resize(std::size_t(points));
-  for (Vec3& v : mesh.vertices) read(&v, sizeof v);
-  mesh.tets.resize(std::size_t(tets));
+  std::size_t at = 0;
+  auto vertices = detail::take<Vec3>(bytes, at);
+  auto tets = vertices ? detail::take_cells<TetMesh::Tet>(bytes, at, vertices->size()) : std::nullopt;
+  if (!tets) return fail(ErrorCode::third_party, "TetGen gave tetrahedra of points that are not there");
+  TetMesh mesh{std::move(*vertices), std::move(*tets)};
   for (TetMesh::Tet& tet : mesh.tets) {
-    read(tet.data(), sizeof tet);
     const auto volume = [&] {
       return signed_volume(mesh.vertices[tet[0]], mesh.vertices[tet[1]], mesh.vertices[tet[2]], mesh.vertices[tet[3]]);
     };

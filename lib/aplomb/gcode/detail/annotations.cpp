@@ -10,7 +10,7 @@ namespace aplomb::detail {
 namespace {
 
 constexpr std::string_view blanks = " \t\r";
-constexpr std::size_t most_marlin_names = 10'000, most_name_bytes = 1000;
+constexpr std::size_t most_marlin_names = 10'000, most_name_bytes = 400;
 
 std::string_view trimmed(std::string_view text) {
   const std::size_t first = text.find_first_not_of(blanks);

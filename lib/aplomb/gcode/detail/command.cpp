@@ -40,6 +40,13 @@ std::optional<double> take_number(std::string_view& text) {
   return is_negative ? -value : value;
 }
 
+bool is_letter(char c) { return upper(c) >= 'A' && upper(c) <= 'Z'; }
+
+/// What may follow a number: "1,5", "1.2.3" and "1-2" are none.
+bool ends_a_number(std::string_view text) {
+  return text.empty() || is_blank(text[0]) || is_letter(text[0]) || text.find_first_of(";*(/\r") == 0;
+}
+
 void skip_blanks(std::string_view& text) {
   while (!text.empty() && is_blank(text[0])) text.remove_prefix(1);
 }
@@ -73,14 +80,18 @@ void Command::read_words() {
     if (c == ';' || c == '*') return;
     if (c == '(') text.remove_prefix(std::min(text.size(), text.find(')') + 1));
     if (c < 'A' || c > 'Z') continue;
+    const bool is_apart = !text.empty() && is_blank(text[0]);
     skip_blanks(text);
     const auto number = take_number(text);
-    if (number) {
+    const bool is_twice = ((present_ | unreadable_) & bit(c)) != 0;  // as "X0x10" has an X, for a printer
+    if (number && ends_a_number(text) && !is_twice) {
       present_ |= bit(c);
       values_[static_cast<std::size_t>(c - 'A')] = *number;
       continue;
     }
+    present_ &= ~bit(c);
     unreadable_ |= bit(c);
+    if (is_apart && !text.empty() && is_letter(text[0])) continue;  // the next word
     while (!text.empty() && !is_blank(text[0]) && text[0] != ';') text.remove_prefix(1);
   }
 }

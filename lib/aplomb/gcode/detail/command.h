@@ -19,7 +19,7 @@ class Command {
   /// Finds the words behind the number. Of a command that takes text they mean nothing.
   void read_words();
   bool has(char word) const { return (present_ & bit(word)) != 0; }
-  /// A word without a number, such as "Y{depth}".
+  /// A word without a number, such as "Y{depth}", "Xnan" or "X1,5", or one that stands twice, as X does in "X0x10".
   bool is_unreadable(char word) const { return (unreadable_ & bit(word)) != 0; }
   /// \pre has(word), after read_words().
   double value(char word) const { return values_[static_cast<std::size_t>(word - 'A')]; }

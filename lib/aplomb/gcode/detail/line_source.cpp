@@ -14,7 +14,9 @@
 namespace aplomb::detail {
 namespace {
 
-constexpr std::size_t buffer_bytes = 1 << 20;
+// Starts small, as small files need no more; grows to hold a line.
+constexpr std::size_t least_buffer_bytes = 1 << 12, usual_buffer_bytes = 1 << 16, most_buffer_bytes = 1 << 20;
+constexpr std::string_view utf8_mark = "\xEF\xBB\xBF";
 
 ssize_t read_some(int file, char* to, std::size_t bytes) {
   ssize_t count = 0;
@@ -29,17 +31,20 @@ std::string reason() { return std::error_code(errno, std::generic_category()).me
 
 Result<LineSource> LineSource::open(const std::filesystem::path& path) {
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) return fail(ErrorCode::file_system, fmt::format("{}: {}", path.string(), reason()));
+  if (file < 0) return fail(ErrorCode::file_system, fmt::format("{}: {}; check its name", path.string(), reason()));
   struct stat about {};
   if (fstat(file, &about) != 0 || !S_ISREG(about.st_mode)) {
     close(file);
-    return fail(ErrorCode::file_system, path.string() + " is no file");
+    return fail(ErrorCode::file_system, path.string() + ": this is no file; give a G-code file");
   }
   return LineSource(file, path, static_cast<std::uint64_t>(about.st_size));
 }
 
 LineSource::LineSource(int file, std::filesystem::path path, std::uint64_t bytes)
-    : file_(file), path_(std::move(path)), bytes_(bytes), buffer_(buffer_bytes) {}
+    : file_(file),
+      path_(std::move(path)),
+      bytes_(bytes),
+      buffer_(bytes < least_buffer_bytes ? least_buffer_bytes : usual_buffer_bytes) {}
 
 LineSource::LineSource(LineSource&& other) noexcept
     : file_(std::exchange(other.file_, -1)),
@@ -65,13 +70,16 @@ Error LineSource::error_of(ErrorCode code, const std::string& what) const {
 bool LineSource::refill() {
   std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
   end_ -= std::exchange(begin_, 0);
-  if (end_ == buffer_.size()) {
+  if (end_ == most_buffer_bytes) {
     error_ = error_of(ErrorCode::unusable_input,
-                      fmt::format("line {} is longer than {} bytes: this is no G-code", line_number_ + 1, end_));
+                      fmt::format("line {}: it is longer than {} bytes, as none of G-code is; give the file that the "
+                                  "slicer exported",
+                                  line_number_ + 1, end_));
     return false;
   }
+  if (end_ == buffer_.size()) buffer_.resize(2 * buffer_.size());
   const ssize_t count = read_some(file_, buffer_.data() + end_, buffer_.size() - end_);
-  if (count < 0) error_ = error_of(ErrorCode::file_system, reason());
+  if (count < 0) error_ = error_of(ErrorCode::file_system, reason() + "; copy the file anew");
   if (count <= 0) at_end_ = true;
   else end_ += static_cast<std::size_t>(count), bytes_read_ += static_cast<std::uint64_t>(count);
   return count > 0;
@@ -79,11 +87,13 @@ bool LineSource::refill() {
 
 std::string_view LineSource::head() {
   if (end_ == 0) refill();
-  return {buffer_.data(), end_};
+  if (begin_ == 0 && std::string_view(buffer_.data(), end_).starts_with(utf8_mark)) begin_ = utf8_mark.size();
+  return {buffer_.data() + begin_, end_ - begin_};
 }
 
 std::optional<std::string_view> LineSource::next() {
   std::size_t searched = 0;
+  if (line_number_ == 0) head();  // skips the mark
   while (!error_) {
     const char* start = buffer_.data() + begin_;
     const auto* end = static_cast<const char*>(std::memchr(start + searched, '\n', end_ - begin_ - searched));
@@ -110,7 +120,7 @@ Result<std::vector<char>> LineSource::tail(std::size_t most_bytes) const {
     const auto from = static_cast<off_t>(bytes_ - last.size() + done);
     const ssize_t count = pread(file_, last.data() + done, last.size() - done, from);
     if (count < 0 && errno == EINTR) continue;
-    if (count < 0) return tl::unexpected(error_of(ErrorCode::file_system, reason()));
+    if (count < 0) return tl::unexpected(error_of(ErrorCode::file_system, reason() + "; copy the file anew"));
     if (count == 0) break;  // it became shorter
     done += static_cast<std::size_t>(count);
   }

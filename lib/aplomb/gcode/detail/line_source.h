@@ -21,7 +21,7 @@ class LineSource {
   LineSource(const LineSource&) = delete;
   ~LineSource();
 
-  /// The first bytes, at most a megabyte. \pre next() was not called.
+  /// The first bytes, at most 64 kB, behind the mark of UTF-8. \pre next() was not called.
   std::string_view head();
   /// The next line without its end; valid until the next call. Nothing at the end, or where reading failed.
   std::optional<std::string_view> next();
@@ -29,7 +29,8 @@ class LineSource {
   /// Why the lines ended early: file_system, or unusable_input for a line that no slicer writes.
   const std::optional<Error>& error() const { return error_; }
   std::uint64_t line_number() const { return line_number_; }
-  std::uint64_t bytes_read() const { return bytes_read_; }
+  /// Of the lines that were handed out.
+  std::uint64_t bytes_done() const { return bytes_read_ - (end_ - begin_); }
   std::uint64_t bytes() const { return bytes_; }
   /// Whether the last line had no end. \pre next() has returned nothing.
   bool ended_within_a_line() const { return ended_within_a_line_; }

@@ -32,12 +32,13 @@ double angle_of(Vec2 v) { return std::atan2(v.y, v.x); }
 Result<Vec2> center_of(const Command& command, Vec2 from, Vec2 to, int direction, double unit_mm) {
   if (command.has('I') || command.has('J'))
     return from + Vec2{unit_mm * command.value_or('I', 0), unit_mm * command.value_or('J', 0)};
-  if (!command.has('R')) return unusable("an arc has neither I, J nor R");
+  if (!command.has('R')) return unusable("an arc has neither I, J nor R; slice the model again");
   const double radius = unit_mm * command.value('R');
   const Vec2 chord = to - from;
   const double length = norm(chord);
   if (length == 0 || length > 2 * std::abs(radius) + most_radius_error_mm)
-    return unusable(fmt::format("an arc of radius {:g} mm cannot span {:g} mm", std::abs(radius), length));
+    return unusable(
+        fmt::format("an arc of radius {:g} mm cannot span {:g} mm; slice the model again", std::abs(radius), length));
   const double height = std::sqrt(std::max(0.0, radius * radius - length * length / 4));
   const double side = (direction > 0) == (radius > 0) ? 1 : -1;
   return from + 0.5 * chord + (side * height / length) * Vec2{-chord.y, chord.x};
@@ -74,7 +75,7 @@ Result<std::optional<Stroke>> Machine::obey(Command& command) {
       case 3:
         return move(command, 1);
       case 5:
-        return unusable("G5 splines cannot be read");
+        return unusable("G5 splines cannot be read; export straight moves or arcs");
       default:
         break;
     }
@@ -138,14 +139,17 @@ double Machine::laid_down(double feed) {
 
 Result<std::optional<Arc>> Machine::arc_to(const Command& command, Vec3 to_mm, int direction) const {
   if (direction == 0) return std::nullopt;
-  if (plane_ != 17) return unusable("arcs can only be read in the plane of the bed (G17)");
-  if (command.value_or('P', 0) > 0) return unusable("arcs of several turns (P) cannot be read");
+  if (plane_ != 17)
+    return unusable("arcs can only be read in the plane of the bed (G17); switch arcs off in the slicer");
+  if (command.value_or('P', 0) > 0)
+    return unusable("arcs of several turns (P) cannot be read; switch arcs off in the slicer");
   const Vec2 from{at_mm_.x, at_mm_.y}, to{to_mm.x, to_mm.y};
   const auto center = center_of(command, from, to, direction, unit_mm_);
   if (!center) return tl::unexpected(center.error());
   const Vec2 start = from - *center, end = to - *center;
   if (!(std::abs(norm(start) - norm(end)) <= most_radius_error_mm) || norm(start) == 0)
-    return unusable(fmt::format("an arc begins {:g} and ends {:g} mm from its centre", norm(start), norm(end)));
+    return unusable(fmt::format("an arc begins {:g} and ends {:g} mm from its centre; slice the model again",
+                                norm(start), norm(end)));
   Arc arc{*center, (norm(start) + norm(end)) / 2, angle_of(start), angle_of(end) - angle_of(start)};
   if (direction > 0 && arc.sweep_rad <= 0) arc.sweep_rad += two_pi;
   if (direction < 0 && arc.sweep_rad >= 0) arc.sweep_rad -= two_pi;
@@ -162,8 +166,10 @@ Result<std::optional<Stroke>> Machine::move(Command& command, int arc_direction)
     e_ += feed;
   }
   if (feed != 0) stroke.feed = flow_ratio_ * laid_down(feed);
-  const bool is_unreadable = std::ranges::any_of("XYZE"sv, [&](char word) { return command.is_unreadable(word); });
-  if (is_unreadable && names(command, 'E')) return unusable("a move that extrudes has a word without a number");
+  const std::string_view words = arc_direction == 0 ? "XYZE"sv : "XYZEIJRP"sv;
+  const bool is_unreadable = std::ranges::any_of(words, [&](char word) { return command.is_unreadable(word); });
+  if (is_unreadable && names(command, 'E'))
+    return unusable("a move that extrudes has a word without a number of its own; slice the model again");
   if (stroke.feed > 0) {
     auto arc = arc_to(command, stroke.to_mm, arc_direction);
     if (!arc) return tl::unexpected(arc.error());

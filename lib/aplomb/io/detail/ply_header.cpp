@@ -75,7 +75,7 @@ class HeaderReader {
   }
 
   Result<void> read_element(const std::vector<std::string_view>& words) {
-    PlyElement element{std::string(words[1]), 0, {}};
+    PlyElement element{words[1], 0, line_, {}};
     const char* end = words[2].data() + words[2].size();
     const auto [stop, error] = std::from_chars(words[2].data(), end, element.count);
     if (error != std::errc() || stop != end)
@@ -105,7 +105,7 @@ class HeaderReader {
                                             " is not a type that can stand here; export the model again");
     if (header_.elements.back().properties.size() == kMostProperties)
       return context_.unusable(place(), "an element has more than 1000 properties; export the model again");
-    header_.elements.back().properties.push_back({std::string(list ? words[4] : words[2]), *type, count_type});
+    header_.elements.back().properties.push_back({list ? words[4] : words[2], *type, count_type});
     return {};
   }
 
@@ -121,8 +121,9 @@ class HeaderReader {
       least += each * static_cast<double>(element.count);
     }
     if (least > static_cast<double>(bytes_left) + 1)
-      return context_.unusable("byte " + std::to_string(header_.data_offset),
-                               "the header promises more elements than the file can hold; it was cut short");
+      return context_.unusable(
+          "byte " + std::to_string(header_.data_offset),
+          "the header promises more elements than the file can hold; it was cut short, save it again");
     return std::move(header_);
   }
 

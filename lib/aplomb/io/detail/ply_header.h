@@ -1,7 +1,7 @@
 #pragma once
 
 #include <optional>
-#include <string>
+#include <string_view>
 #include <vector>
 
 #include "aplomb/io/detail/read_context.h"
@@ -12,15 +12,18 @@ enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64
 
 std::size_t size_of(PlyType type);
 
+// Names are views of the file's text.
+
 struct PlyProperty {
-  std::string name;
+  std::string_view name;
   PlyType type;
   std::optional<PlyType> count_type;  ///< set for a list; an integer type
 };
 
 struct PlyElement {
-  std::string name;
+  std::string_view name;
   std::size_t count = 0;
+  std::size_t line = 0;  ///< of the header
   std::vector<PlyProperty> properties;
 
   /// Position of a property; properties.size() when there is none.

@@ -4,8 +4,18 @@ namespace aplomb::detail {
 namespace {
 
 constexpr std::uint64_t kMaxSteps = 500'000'000;  // two or three seconds
+constexpr std::uint64_t kStepsAReport = 1 << 20;
 
 }  // namespace
+
+bool PolygonCutter::spend(std::uint64_t steps) {
+  steps_ += steps;
+  if (steps_ >= next_report_) {
+    next_report_ = steps_ + kStepsAReport;
+    is_cancelled_ = !context_.proceed(0.5);
+  }
+  return !is_cancelled_ && steps_ <= kMaxSteps;
+}
 
 Result<void> PolygonCutter::add(std::span<const std::uint32_t> corners) {
   if (corners.size() == 3) {
@@ -65,8 +75,7 @@ std::size_t PolygonCutter::find_ear(std::size_t start) {
   std::size_t at = start;
   for (std::size_t i = 0; i < left_; ++i, at = next_[at]) {
     const double area = turn(points_[previous_[at]], points_[at], points_[next_[at]]);
-    steps_ += area > 0 ? left_ : 1;
-    if (steps_ > kMaxSteps) return start;
+    if (!spend(area > 0 ? left_ : 1)) return start;
     if (is_ear(previous_[at], at, next_[at])) return at;
     if (area > widest_turn) widest = at, widest_turn = area;
   }
@@ -84,10 +93,11 @@ Result<void> PolygonCutter::clip_ears(std::span<const std::uint32_t> corners) {
   std::size_t at = 0;
   for (left_ = n; left_ >= 3; --left_) {
     at = left_ == 3 ? at : find_ear(at);
-    if (steps_ > kMaxSteps)
+    const bool goes_on = spend(1);
+    if (is_cancelled_) return cancelled();
+    if (!goes_on)
       return fail(ErrorCode::over_budget, context_.name() + ": its concave polygons have too many corners (one has " +
                                               std::to_string(n) + "); triangulate the model first");
-    if ((++steps_ & 1023) == 0 && !context_.proceed(0.5)) return cancelled();
     if (!mesh_.add_triangle({corners[previous_[at]], corners[at], corners[next_[at]]})) return mesh_.failure();
     next_[previous_[at]] = next_[at];
     previous_[next_[at]] = previous_[at];

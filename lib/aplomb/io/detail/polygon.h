@@ -32,13 +32,16 @@ class PolygonCutter {
   Result<void> clip_ears(std::span<const std::uint32_t> corners);
   bool is_ear(std::size_t before, std::size_t at, std::size_t after) const;
   std::size_t find_ear(std::size_t start);
+  /// False when it is told to stop, or there were too many steps.
+  bool spend(std::uint64_t steps);
 
   GrowingMesh& mesh_;
   const ReadContext& context_;
   std::vector<Point> points_;                   // of the polygon at hand, counter-clockwise
   std::vector<std::uint32_t> next_, previous_;  // the ring of corners still there
   std::size_t left_ = 0;
-  std::uint64_t steps_ = 0;
+  std::uint64_t steps_ = 0, next_report_ = 0;
+  bool is_cancelled_ = false;
 };
 
 }  // namespace aplomb::detail

@@ -26,7 +26,8 @@ Result<Vec3> ReadContext::read_position(TextCursor& text) const {
   for (int axis = 0; axis < 3; ++axis) {
     const auto value = text.number();
     if (!value)
-      return unusable(text.place(), "expected a finite coordinate, found " + in_quotes(text.peek_word()) +
+      return unusable(text.place(), "expected a finite coordinate, found " +
+                                        (text.at_line_end() ? "the end of the line" : in_quotes(text.peek_word())) +
                                         "; repair or export the model again");
     position[axis] = *value;
   }
@@ -85,6 +86,17 @@ bool GrowingMesh::grow_triangles() {
   if (!keep(context_->admit(mesh_.vertices.capacity(), next, now * sizeof(Triangle)))) return false;
   mesh_.triangles.reserve(next);
   return true;
+}
+
+std::string shown_path(std::string_view path) { return printable(path, path.size()); }
+
+std::string short_name(std::string_view name) {
+  constexpr std::size_t kMost = 1000;
+  if (name.size() <= kMost) return std::string(name);
+  std::size_t end = kMost;
+  const auto continues = [name](std::size_t at) { return (static_cast<unsigned char>(name[at]) & 0xC0) == 0x80; };
+  while (end > kMost - 4 && continues(end)) --end;
+  return std::string(name.substr(0, end));
 }
 
 std::string in_quotes(std::string_view text) { return '"' + printable(text) + '"'; }

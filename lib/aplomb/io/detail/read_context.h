@@ -12,14 +12,18 @@ namespace aplomb::detail {
 
 class TextCursor;
 
+/// A file's name or path made fit for a message: whole, but without control characters.
+std::string shown_path(std::string_view path);
+
 /// What the reader of one format is given: the bytes, what they may cost, and where to leave notes.
 class ReadContext {
  public:
   ReadContext(std::span<const std::byte> bytes, std::string_view name, const ReadOptions& options, const Job& job)
-      : bytes_(bytes), name_(name), options_(options), job_(job) {}
+      : bytes_(bytes), name_(shown_path(name)), options_(options), job_(job) {}
 
   std::span<const std::byte> bytes() const { return bytes_; }
   std::string_view text() const { return {reinterpret_cast<const char*>(bytes_.data()), bytes_.size()}; }
+  /// Of the file, fit for a message.
   const std::string& name() const { return name_; }
   const ReadOptions& options() const { return options_; }
 
@@ -41,6 +45,11 @@ class ReadContext {
   /// What a reader holds besides the file and the mesh at hand; counts in every later admit().
   void set_work_bytes(std::size_t work_bytes) { work_bytes_ = work_bytes; }
   std::size_t work_bytes() const { return work_bytes_; }
+  /// over_budget unless so much more fits; counts from then on.
+  Result<void> hold(std::size_t bytes) {
+    work_bytes_ += bytes;
+    return admit(0, 0);
+  }
 
   /// False: the caller wants to stop.
   bool proceed(double fraction) const { return job_.report(fraction, "read"); }
@@ -91,6 +100,10 @@ class GrowingMesh {
   TriangleMesh mesh_;
   Error failure_;
 };
+
+/// A name from a file as it is kept, perhaps for each of a million items: at most 1000 bytes, whole characters of
+/// UTF-8.
+std::string short_name(std::string_view name);
 
 /// Text from a file made fit for a message: at most 80 characters, no control characters, in quotes.
 std::string in_quotes(std::string_view text);

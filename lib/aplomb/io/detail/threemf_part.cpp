@@ -1,10 +1,10 @@
 #include "aplomb/io/detail/threemf_part.h"
 
 #include <algorithm>
-#include <cctype>
 #include <optional>
 
 #include "aplomb/io/detail/text_cursor.h"
+#include "aplomb/io/detail/threemf_xml.h"
 
 namespace aplomb::detail {
 namespace {
@@ -77,12 +77,6 @@ class PartReader {
     return name.size() == prefix_.size() + local.size() && name.starts_with(prefix_) && name.ends_with(local);
   }
 
-  /// over_budget unless so much more fits, besides the XML's tree; counts from then on.
-  Result<void> hold(std::size_t bytes) {
-    context_.set_work_bytes(context_.work_bytes() + bytes);
-    return context_.admit(0, 0);
-  }
-
   Result<void> check_extensions(const pugi::xml_node& model) {
     TextCursor prefixes(attribute(model, "requiredextensions"));
     std::size_t count = 0;
@@ -92,7 +86,8 @@ class PartReader {
       const std::string_view name_space = model.attribute(("xmlns:" + prefix).c_str()).value();
       if (!keeps_the_shape(name_space))
         return unusable("its shape needs the extension " + in_quotes(name_space.empty() ? prefix : name_space) +
-                        ", which Aplomb cannot read; export it as a plain mesh");
+                            ", which Aplomb cannot read",
+                        "export it as a plain mesh");
     }
     return {};
   }
@@ -103,7 +98,7 @@ class PartReader {
       const auto id = index_in(attribute(node, "id"));
       if (!id) return unusable("an object has no usable id");
       object_ = ", object " + std::to_string(*id);
-      if (auto held = hold(kObjectBytes); !held) return held;
+      if (auto held = context_.hold(kObjectBytes); !held) return held;
       const auto [at, is_new] = result_.objects.try_emplace(*id);
       if (!is_new) return unusable("another object has the same id");
       if (auto done = read_object(node, at->second); !done) return done;
@@ -113,9 +108,10 @@ class PartReader {
   }
 
   Result<void> read_object(const pugi::xml_node& node, ThreemfObject& object) {
-    object.name = attribute(node, "name");
-    object.type = attribute(node, "type");
+    object.name = short_name(attribute(node, "name"));
+    object.type = short_name(attribute(node, "type"));
     if (object.type.empty()) object.type = "model";
+    if (auto held = context_.hold(object.name.size() + object.type.size()); !held) return held;
     for (const pugi::xml_node& child : node) {
       Result<void> done;
       if (is(child, "metadatagroup")) read_settings(child, "name", object);
@@ -197,7 +193,7 @@ class PartReader {
                                std::vector<ThreemfReference>& out) {
     for (const pugi::xml_node& node : list) {
       if (!is(node, element)) continue;
-      if (auto held = hold(kReferenceBytes); !held) return held;
+      if (auto held = context_.hold(kReferenceBytes); !held) return held;
       ThreemfReference reference;
       const auto id = index_in(attribute(node, "objectid"));
       if (!id) return unusable("a " + std::string(element) + " has no usable objectid");
@@ -232,9 +228,8 @@ class PartReader {
     return {};
   }
 
-  tl::unexpected<Error> unusable(std::string problem) const {
-    if (problem.find(';') == problem.npos) problem += "; export the model again";
-    return context_.unusable("part " + in_quotes(part_) + object_, problem);
+  tl::unexpected<Error> unusable(std::string problem, std::string_view remedy = "export the model again") const {
+    return context_.unusable("part " + in_quotes(part_) + object_, problem.append("; ").append(remedy));
   }
 
   ReadContext& context_;
@@ -246,43 +241,6 @@ class PartReader {
 };
 
 }  // namespace
-
-namespace {
-
-/// What the tree may take at most: two nodes for a '<', an attribute for a '=', and the text once more, should it not
-/// be UTF-8.
-std::size_t tree_bytes_of(const std::string& xml) {
-  const auto tags = std::count(xml.begin(), xml.end(), '<'), attributes = std::count(xml.begin(), xml.end(), '=');
-  const bool is_converted = xml.find('\0') != xml.npos;
-  return static_cast<std::size_t>(tags) * 128 + static_cast<std::size_t>(attributes) * 48 +
-         (is_converted ? 2 * xml.size() : 0);
-}
-
-}  // namespace
-
-std::string_view local_name(std::string_view name) { return name.substr(name.find(':') + 1); }
-
-std::string_view attribute(const pugi::xml_node& node, std::string_view local) {
-  for (const pugi::xml_attribute& each : node.attributes())
-    if (local_name(each.name()) == local) return each.value();
-  return {};
-}
-
-Result<void> parse_xml(const ReadContext& context, std::string_view name, std::string& xml,
-                       pugi::xml_document& document) {
-  const std::string place = "part " + in_quotes(name);
-  if (auto admitted = context.admit(0, 0, tree_bytes_of(xml)); !admitted) return admitted;
-  const auto parsed = document.load_buffer_inplace(
-      xml.data(), xml.size(), pugi::parse_escapes | pugi::parse_wconv_attribute | pugi::parse_doctype);
-  for (const pugi::xml_node& node : document)
-    if (node.type() == pugi::node_doctype)
-      return context.unusable(place, "it has a document type definition, which 3MF forbids; export the model again");
-  if (!parsed)
-    return context.unusable(
-        place + ", byte " + std::to_string(parsed.offset),
-        std::string("it is no well-formed XML (") + parsed.description() + "); export the model again");
-  return {};
-}
 
 Result<ThreemfPart> read_threemf_part(ReadContext& context, std::string_view name, std::string xml) {
   pugi::xml_document document;

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <map>
-#include <pugixml.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -41,15 +40,5 @@ struct ThreemfPart {
 /// Reads a model part. Indices are in range, ids unique, coordinates and transforms finite, transforms invertible.
 /// `name` stands in messages; `xml` is destroyed.
 Result<ThreemfPart> read_threemf_part(ReadContext& context, std::string_view name, std::string xml);
-
-/// Parses XML that may cost memory, and may have no DTD (3MF core specification). \pre `xml` outlives the document.
-Result<void> parse_xml(const ReadContext& context, std::string_view name, std::string& xml,
-                       pugi::xml_document& document);
-
-/// An element's or attribute's name without its prefix.
-std::string_view local_name(std::string_view name);
-
-/// An attribute's value by its local name; empty when it is missing.
-std::string_view attribute(const pugi::xml_node& node, std::string_view local);
 
 }  // namespace aplomb::detail

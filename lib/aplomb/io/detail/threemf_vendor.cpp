@@ -1,6 +1,10 @@
 #include "aplomb/io/detail/threemf_vendor.h"
 
+#include <algorithm>
 #include <charconv>
+#include <initializer_list>
+
+#include "aplomb/io/detail/threemf_xml.h"
 
 namespace aplomb::detail {
 namespace {
@@ -55,11 +59,30 @@ Result<void> read_config(std::string_view name, ReadContext& context, ZipReader&
     std::size_t id = 0;
     if (!read_whole(object.attribute("id").value(), id) || id > 0x7fffffff) continue;
     const auto object_id = static_cast<ResourceId>(id);
-    if (const std::string_view text = metadata(object, "name"); !text.empty()) vendor.names.emplace(object_id, text);
+    if (const std::string_view text = metadata(object, "name"); !text.empty())
+      vendor.names.emplace(object_id, short_name(text));
     read_prusa_volumes(object, object_id, context, vendor);
     read_bambu_parts(object, object_id, context, vendor);
   }
   return {};
+}
+
+/// Settings hold scripts (post-processing, machines' G-code); G-code is a program. None of it is read.
+void note_what_slicers_left(ReadContext& context, const ZipReader& zip) {
+  const auto ends_as_one_of = [](std::string_view key, std::initializer_list<std::string_view> endings) {
+    return std::any_of(endings.begin(), endings.end(),
+                       [key](std::string_view ending) { return key.ends_with(ending); });
+  };
+  bool has_settings = false, has_programs = false;
+  for (const auto& [key, index] : zip.entries()) {
+    const bool is_of_cura = key.starts_with("cura/");
+    has_settings |= is_of_cura ||
+                    (key.starts_with("metadata/") && ends_as_one_of(key, {".config", ".xml", ".json", ".ini", ".cfg"}));
+    has_programs |= ends_as_one_of(key, {".gcode", ".gco", ".bgcode"});
+  }
+  if (has_settings)
+    context.note("a slicer's settings in the file (and any scripts in them) were ignored and are not written");
+  if (has_programs) context.note("G-code in the file was ignored and is not written");
 }
 
 }  // namespace
@@ -68,12 +91,7 @@ Result<ThreemfVendor> read_threemf_vendor(ReadContext& context, ZipReader& zip) 
   ThreemfVendor vendor;
   for (const std::string_view name : {kPrusa, kBambu})
     if (auto done = read_config(name, context, zip, vendor); !done) return tl::unexpected<Error>(done.error());
-  for (const auto& [key, index] : zip.entries())
-    if (key.starts_with("metadata/") &&
-        (key.ends_with(".config") || key.ends_with(".xml") || key.ends_with(".gcode"))) {
-      context.note("a slicer's settings in the file (and any scripts in them) were ignored and are not written");
-      break;
-    }
+  note_what_slicers_left(context, zip);
   return vendor;
 }
 

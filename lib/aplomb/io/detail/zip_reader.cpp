@@ -13,31 +13,55 @@ constexpr std::size_t kChunk = std::size_t{1} << 20;
 constexpr double kMostExpansion = 200;
 constexpr double kSmallPart = 64 << 20;
 
-constexpr std::size_t kMostDirectory = std::size_t{16} << 20;
+// Projects of several plates have hundreds of parts. libzip takes 300 bytes for each as soon as it opens the directory,
+// finds names by a hash that a file can make collide, and reads the directory again for each end record.
+constexpr std::size_t kMostDirectory = std::size_t{1} << 20;
+constexpr std::uint64_t kMostParts = 5000;
 
-std::uint64_t little_endian(std::string_view bytes, std::size_t count) {
+std::uint64_t little_endian(std::string_view text, std::uint64_t at, std::size_t count) {
+  const std::string_view bytes = text.substr(std::min<std::uint64_t>(text.size(), at), count);
   std::uint64_t value = 0;
-  for (std::size_t i = std::min(count, bytes.size()); i-- > 0;)
-    value = value << 8 | static_cast<unsigned char>(bytes[i]);
+  for (std::size_t i = bytes.size(); i-- > 0;) value = value << 8 | static_cast<unsigned char>(bytes[i]);
   return value;
 }
 
-/// The largest central directory that any end record among the last bytes claims (APPNOTE 4.3.14 to 4.3.16): libzip
-/// takes some 300 bytes for each of its entries as soon as it opens it.
-std::uint64_t directory_bytes(std::string_view text) {
+/// What an end record says of the directory, or what the directory holds where that is more.
+struct Directory {
+  std::uint64_t entries = 0, bytes = 0, offset = 0;
+
+  std::uint64_t true_entries(std::string_view text) const {
+    const std::string_view bytes_of_it = text.substr(std::min<std::uint64_t>(text.size(), offset), bytes);
+    std::uint64_t found = 0;
+    for (std::size_t at = 0; (at = bytes_of_it.find("PK\1\2", at)) != bytes_of_it.npos; at += 4) ++found;
+    return std::max(found, entries);
+  }
+};
+
+/// By the end record at `at` (APPNOTE 4.3.14 to 4.3.16). Where a locator stands before it, libzip believes the record
+/// of 64 bits, whatever the plain one says.
+Directory directory_by(std::string_view text, std::size_t at) {
+  constexpr std::size_t kLocator = 20;
+  if (at >= kLocator && text.substr(at - kLocator, 4) == "PK\6\7") {
+    const std::uint64_t record = little_endian(text, at - kLocator + 8, 8);
+    if (record > text.size()) return {};  // libzip refuses that
+    return {std::max(little_endian(text, record + 24, 8), little_endian(text, record + 32, 8)),
+            little_endian(text, record + 40, 8), little_endian(text, record + 48, 8)};
+  }
+  return {std::max(little_endian(text, at + 8, 2), little_endian(text, at + 10, 2)), little_endian(text, at + 12, 4),
+          little_endian(text, at + 16, 4)};
+}
+
+/// Whether all directories that end records among the last bytes name are small, together.
+bool has_small_directory(std::string_view text) {
   constexpr std::size_t kSearched = 70'000;  // a record, and its comment of at most 65,535
-  std::uint64_t most = 0;
+  std::uint64_t bytes = 0, entries = 0;
   for (std::size_t at = text.size() - std::min(text.size(), kSearched); (at = text.find("PK\5\6", at)) != text.npos;
        ++at) {
-    std::uint64_t size = little_endian(text.substr(std::min(text.size(), at + 12)), 4);
-    if (size == 0xffffffff && at >= 20) {
-      const std::uint64_t record = little_endian(text.substr(at - 20 + 8), 8);
-      size =
-          record < text.size() ? little_endian(text.substr(std::min<std::size_t>(text.size(), record + 40)), 8) : size;
-    }
-    most = std::max(most, size);
+    const Directory directory = directory_by(text, at);
+    if (directory.bytes > kMostDirectory || (bytes += directory.bytes) > kMostDirectory) return false;
+    if (directory.entries > kMostParts || (entries += directory.true_entries(text)) > kMostParts) return false;
   }
-  return most;
+  return true;
 }
 
 bool is_symbolic_link(zip_t* archive, zip_uint64_t index) {
@@ -60,8 +84,8 @@ std::string ZipReader::key_of(std::string_view name) {
 }
 
 Result<ZipReader> ZipReader::open(ReadContext& context) {
-  if (directory_bytes(context.text()) > kMostDirectory)
-    return context.unusable("", "its zip claims a directory of more than 16 MB, as no 3MF has; export the model again");
+  if (!has_small_directory(context.text()))
+    return context.unusable("", "its zip has a directory of more than 5000 parts or 1 MB; export fewer models at once");
   ZipReader reader(context);
   zip_error_t error;
   zip_error_init(&error);
@@ -121,6 +145,7 @@ Result<std::string> ZipReader::inflate(std::uint64_t index, std::size_t size, co
   if (!file) return damaged(zip_strerror(archive_.get()));
   context_->set_work_bytes(context_->work_bytes() + size);
   std::string text;
+  text.reserve(size + 1);  // as admitted: grown step by step it would be held twice
   for (;;) {
     if (!context_->proceed(0.3 * static_cast<double>(text.size()) / static_cast<double>(size + 1))) return cancelled();
     const std::size_t before = text.size();

@@ -4,7 +4,7 @@
 
 namespace aplomb::detail {
 
-CornerTable::CornerTable(const TriangleMesh& mesh)
+CornerTable::CornerTable(const TriangleMesh& mesh, const Pulse& pulse)
     : vertices_(3 * mesh.triangles.size()),
       twins_(vertices_.size(), none),
       leaving_(mesh.vertices.size(), none),
@@ -15,10 +15,11 @@ CornerTable::CornerTable(const TriangleMesh& mesh)
     leaving_[v] = c;
     ++valences_[v];
   }
-  EdgeTable(mesh).for_each([&](std::uint32_t, std::uint32_t, std::span<const Corner> corners) {
+  const auto join = [&](std::uint32_t, std::uint32_t, std::span<const Corner> corners) {
     assert(corners.size() == 2);
     glue(corners[0], corners[1]);
-  });
+  };
+  EdgeTable(mesh, pulse).for_each(join, pulse);
 }
 
 bool CornerTable::may_collapse(Corner c) {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "aplomb/core/pulse.h"
 #include "aplomb/mesh/detail/topology.h"
 #include "aplomb/mesh/triangle_mesh.h"
 
@@ -15,7 +16,8 @@ class CornerTable {
   static constexpr std::uint32_t none = 0xFFFFFFFF;
 
   /// \pre The mesh is closed, consistently wound and 2-manifold.
-  explicit CornerTable(const TriangleMesh& mesh);
+  /// Where the pulse stopped, of no use.
+  explicit CornerTable(const TriangleMesh& mesh, const Pulse& pulse = {});
 
   std::uint32_t vertex(Corner c) const { return vertices_[c]; }
   std::uint32_t head(Corner c) const { return vertices_[next_corner(c)]; }

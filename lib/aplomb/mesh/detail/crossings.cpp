@@ -1,13 +1,11 @@
 #include "aplomb/mesh/detail/crossings.h"
 
 #include <tbb/blocked_range.h>
-#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_reduce.h>
 
 #include <algorithm>
-#include <functional>
-#include <set>
+#include <atomic>
+#include <utility>
 
 #include "aplomb/adapters/cgal/exact_predicates.h"
 
@@ -16,7 +14,9 @@ namespace {
 
 using adapters::Corners;
 
-constexpr std::uint32_t leaves_a_step = 4096;  // about 15 ms: steps bound the wait for a cancel, whatever the threads
+constexpr std::uint32_t most_leaves_a_step =
+    4096;  // about 15 ms: steps bound the wait for a cancel, whatever the threads
+constexpr std::uint64_t most_pairs_a_step = 1'000'000;  // where many boxes meet
 
 Corners corners_of(const TriangleMesh& mesh, const Triangle& t) {
   return {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
@@ -32,20 +32,38 @@ bool on_one_side(const Corners& a, Vec3 first, Points... others) {
 /// Turned so that the shared vertex, or the one that is not shared, comes first.
 Triangle turned(const Triangle& t, unsigned first) { return {t[first], t[(first + 1) % 3], t[(first + 2) % 3]}; }
 
-/// +1 or -1 when the upward ray from p leaves or enters through the triangle, p moved by (-eps^2, eps, 0) so
-/// that it meets no edge; else 0.
-int crossing_above(const Corners& t, Vec3 p) {
-  int turns = 0;  // of the triangle's projection round p
-  for (int i = 0; i < 3; ++i) {
-    const Vec3 from = t[i], to = t[(i + 1) % 3];
-    if ((from.y > p.y) == (to.y > p.y)) continue;
-    const bool rises = to.y > p.y;
-    const bool right_of_p =
-        rises ? adapters::orientation_xy(from, to, p) >= 0 : adapters::orientation_xy(to, from, p) >= 0;
-    if (right_of_p) turns += rises ? 1 : -1;
+/// Calls visit(s, t) for the tree's pairs, on all threads, for as long as more() holds. A step is the larger the fewer
+/// pairs the one before it had.
+template <class More, class Visit>
+Result<void> for_each_pair(const TriangleTree& tree, const Job& job, More&& more, Visit&& visit) {
+  const std::uint64_t most_pairs = 30'000'000 + std::uint64_t{100} * BoxTree::leaf_size * tree.leaves();
+  std::uint64_t all_pairs = 0;
+  std::uint32_t leaves_a_step = 16;
+  for (std::uint32_t first = 0; first < tree.leaves() && more();) {
+    if (!job.report(static_cast<double>(first) / tree.leaves(), "check")) return cancelled();
+    if (all_pairs > most_pairs)
+      return fail(ErrorCode::unusable_input,
+                  "too many of its triangles lie in one another's boxes to look for crossings; cut long slanted ones, "
+                  "leave out surfaces inside others in a modeller, or split the file");
+    const std::uint32_t end = std::min(first + leaves_a_step, tree.leaves());
+    std::atomic<std::uint64_t> pairs = 0;
+    tbb::parallel_for(tbb::blocked_range<std::uint32_t>(first, end, std::min(64U, 1 + leaves_a_step / 16)),
+                      [&](const tbb::blocked_range<std::uint32_t>& leaves) {
+                        std::uint64_t seen = 0;
+                        for (std::uint32_t leaf = leaves.begin(); leaf != leaves.end(); ++leaf)
+                          tree.pairs_of_leaf(leaf, [&](std::uint32_t s, std::uint32_t t) {
+                            ++seen;
+                            visit(s, t);
+                          });
+                        pairs += seen;
+                      });
+    all_pairs += pairs;
+    const std::uint64_t pairs_a_leaf = 1 + pairs / (end - first);
+    leaves_a_step = static_cast<std::uint32_t>(std::clamp<std::uint64_t>(
+        most_pairs_a_step / pairs_a_leaf, 1, std::min(4 * leaves_a_step, most_leaves_a_step)));
+    first = end;
   }
-  if (turns == 0) return 0;
-  return adapters::orientation(t[0], t[1], t[2], p) * turns < 0 ? turns : 0;
+  return {};
 }
 
 }  // namespace
@@ -69,94 +87,45 @@ bool cross(const TriangleMesh& mesh, const Triangle& s, const Triangle& t) {
   return adapters::orientation(a[0], a[1], a[2], b[0]) == 0 && adapters::on_same_side(a[1], a[2], a[0], b[0]);
 }
 
+int crossing_above(const TriangleMesh& mesh, const Triangle& triangle, Vec3 p) {
+  const Corners t = corners_of(mesh, triangle);
+  int turns = 0;  // of the triangle's projection round p
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 from = t[i], to = t[(i + 1) % 3];
+    if ((from.y > p.y) == (to.y > p.y)) continue;
+    const bool rises = to.y > p.y;
+    const bool right_of_p =
+        rises ? adapters::orientation_xy(from, to, p) >= 0 : adapters::orientation_xy(to, from, p) >= 0;
+    if (right_of_p) turns += rises ? 1 : -1;
+  }
+  if (turns == 0) return 0;
+  return adapters::orientation(t[0], t[1], t[2], p) * turns < 0 ? turns : 0;
+}
+
 Result<std::size_t> count_crossings(const TriangleMesh& mesh, const TriangleTree& tree,
                                     const std::vector<bool>& skipped, const Job& job) {
-  std::size_t crossings = 0;
-  for (std::uint32_t first = 0; first < tree.leaves() && crossings < most_crossings; first += leaves_a_step) {
-    if (!job.report(static_cast<double>(first) / tree.leaves(), "check")) return cancelled();
-    const tbb::blocked_range<std::uint32_t> step(first, std::min(first + leaves_a_step, tree.leaves()), 64);
-    const auto count_in = [&](const tbb::blocked_range<std::uint32_t>& leaves, std::size_t count) {
-      for (std::uint32_t leaf = leaves.begin(); leaf != leaves.end(); ++leaf)
-        tree.pairs_of_leaf(leaf, [&](std::uint32_t s, std::uint32_t t) {
-          count += !skipped[s] && !skipped[t] && cross(mesh, mesh.triangles[s], mesh.triangles[t]);
-        });
-      return count;
-    };
-    crossings += tbb::parallel_reduce(step, std::size_t{0}, count_in, std::plus<>());
-  }
-  return crossings;
+  std::atomic<std::size_t> crossings = 0;
+  const Result<void> looked = for_each_pair(
+      tree, job, [&] { return crossings < most_crossings; },
+      [&](std::uint32_t s, std::uint32_t t) {
+        if (!skipped[s] && !skipped[t] && cross(mesh, mesh.triangles[s], mesh.triangles[t])) ++crossings;
+      });
+  if (!looked) return tl::unexpected(looked.error());
+  return std::min<std::size_t>(crossings, most_crossings);
 }
 
 Result<std::vector<bool>> crossing_triangles(const TriangleMesh& mesh, const TriangleTree& tree,
                                              const std::vector<bool>& skipped, const Job& job) {
-  std::vector<bool> crossing(mesh.triangles.size());
-  tbb::enumerable_thread_specific<std::vector<std::uint32_t>> found;  // by thread; the union does not depend on it
-  for (std::uint32_t first = 0; first < tree.leaves(); first += leaves_a_step) {
-    if (!job.report(static_cast<double>(first) / tree.leaves(), "check")) return cancelled();
-    const tbb::blocked_range<std::uint32_t> step(first, std::min(first + leaves_a_step, tree.leaves()), 64);
-    tbb::parallel_for(step, [&](const tbb::blocked_range<std::uint32_t>& leaves) {
-      std::vector<std::uint32_t>& mine = found.local();
-      for (std::uint32_t leaf = leaves.begin(); leaf != leaves.end(); ++leaf)
-        tree.pairs_of_leaf(leaf, [&](std::uint32_t s, std::uint32_t t) {
-          if (!skipped[s] && !skipped[t] && cross(mesh, mesh.triangles[s], mesh.triangles[t]))
-            mine.insert(mine.end(), {s, t});
-        });
-    });
-  }
-  for (const std::vector<std::uint32_t>& triangles : found)
-    for (const std::uint32_t t : triangles) crossing[t] = true;
-  return crossing;
-}
-
-std::vector<ComponentPair> meeting_components(const TriangleMesh& mesh, const TriangleTree& tree,
-                                              const Components& components) {
-  std::set<ComponentPair> pairs;
-  if (components.count < 2) return {};
-  const auto degenerate = [&](const Triangle& t) {
-    return t[0] == t[1] || t[1] == t[2] || t[2] == t[0] ||
-           adapters::are_collinear(mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
-  };
-  for (std::uint32_t leaf = 0; leaf < tree.leaves(); ++leaf)
-    tree.pairs_of_leaf(leaf, [&](std::uint32_t s, std::uint32_t t) {
-      const std::uint32_t a = components.of_triangle[s], b = components.of_triangle[t];
-      if (a == b || pairs.contains({std::min(a, b), std::max(a, b)})) return;
-      const Triangle &first = mesh.triangles[s], &second = mesh.triangles[t];
-      const bool share = std::find_first_of(first.begin(), first.end(), second.begin(), second.end()) != first.end();
-      if (share || (!degenerate(first) && !degenerate(second) && cross(mesh, first, second)))
-        pairs.insert({std::min(a, b), std::max(a, b)});
-    });
-  return {pairs.begin(), pairs.end()};
-}
-
-std::vector<std::vector<Enclosure>> enclosures(const TriangleMesh& mesh, const TriangleTree& tree,
-                                               const Components& components) {
-  std::vector<std::vector<Enclosure>> all(components.count);
-  if (components.count < 2) return all;
-  std::uint32_t next = 0;  // components are numbered in the order of their first triangles
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (components.of_triangle[t] != next) continue;
-    const Vec3 p = mesh.vertices[mesh.triangles[t][0]];
-    const auto x = static_cast<float>(p.x), y = static_cast<float>(p.y), z = static_cast<float>(p.z);
-    std::vector<Enclosure> hits;
-    tree.for_each(
-        [&](const FloatBox& box) {
-          return box.min[0] <= x && x <= box.max[0] && box.min[1] <= y && y <= box.max[1] && z <= box.max[2];
-        },
-        [&](std::uint32_t other) {
-          const std::uint32_t component = components.of_triangle[other];
-          if (component == next) return;
-          const int crossing = crossing_above(corners_of(mesh, mesh.triangles[other]), p);
-          if (crossing != 0) hits.push_back({component, crossing});
-        });
-    std::sort(hits.begin(), hits.end(), [](Enclosure a, Enclosure b) { return a.component < b.component; });
-    for (const Enclosure& hit : hits) {
-      if (!all[next].empty() && all[next].back().component == hit.component) all[next].back().winding += hit.winding;
-      else all[next].push_back(hit);
-    }
-    std::erase_if(all[next], [](const Enclosure& e) { return e.winding == 0; });
-    ++next;
-  }
-  return all;
+  std::vector<std::atomic<bool>> crossing(mesh.triangles.size());
+  const Result<void> looked = for_each_pair(
+      tree, job, [] { return true; },
+      [&](std::uint32_t s, std::uint32_t t) {
+        if (skipped[s] || skipped[t] || (crossing[s] && crossing[t]))
+          return;  // whichever was first, the marks are the same
+        if (cross(mesh, mesh.triangles[s], mesh.triangles[t])) crossing[s] = crossing[t] = true;
+      });
+  if (!looked) return tl::unexpected(looked.error());
+  return std::vector<bool>(crossing.begin(), crossing.end());
 }
 
 std::vector<double> volumes_mm3(const TriangleMesh& mesh, const Components& components) {
@@ -172,6 +141,13 @@ std::vector<double> volumes_mm3(const TriangleMesh& mesh, const Components& comp
   }
   for (double& volume : six_volumes) volume /= 6;
   return six_volumes;
+}
+
+double surface_area_mm2(const TriangleMesh& mesh) {
+  double area = 0;
+  for (const auto& [a, b, c] : mesh.triangles)
+    area += norm(cross(mesh.vertices[b] - mesh.vertices[a], mesh.vertices[c] - mesh.vertices[a])) / 2;
+  return area;
 }
 
 }  // namespace aplomb::detail

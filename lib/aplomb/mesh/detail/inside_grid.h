@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "aplomb/core/error.h"
+#include "aplomb/core/job.h"
 #include "aplomb/mesh/triangle_mesh.h"
 
 namespace aplomb::detail {
@@ -15,8 +17,12 @@ class InsideGrid {
  public:
   /// \pre  mesh has a box of positive diagonal; voxels_on_diagonal >= 8.
   /// \post A rim of at least one node all round is outside.
-  /// \par Cost  O(triangles + rays + nodes); 0.1 s for 100k triangles and 200 voxels.
-  InsideGrid(const TriangleMesh& mesh, const Box3& box, int voxels_on_diagonal);
+  /// \return cancelled; unusable_input where 2000 triangles' boxes lie over a ray, on average.
+  /// \par Cost  O(nodes + rays that the triangles' boxes cover); 0.1 s for 100k triangles and 200 voxels. Memory that
+  /// does
+  ///       not grow with the triangles.
+  static Result<InsideGrid> sampled(const TriangleMesh& mesh, const Box3& box, int voxels_on_diagonal,
+                                    const Job& job = {});
 
   double voxel_mm() const { return voxel_mm_; }
   Vec3 origin_mm() const { return origin_mm_; }
@@ -36,7 +42,9 @@ class InsideGrid {
   double difference_mm3(const InsideGrid& other) const;
 
  private:
-  void vote_along(int axis, const TriangleMesh& mesh, std::vector<std::uint8_t>& votes) const;
+  InsideGrid() = default;
+  Result<void> vote_along(int axis, const TriangleMesh& mesh, std::vector<std::uint8_t>& votes, const Job& job) const;
+  void vote_on_ray(int axis, int x, int y, const std::int32_t* turns, std::vector<std::uint8_t>& votes) const;
 
   double voxel_mm_ = 0;
   Vec3 origin_mm_;
@@ -44,6 +52,11 @@ class InsideGrid {
   std::vector<bool> inside_;
   double doubtful_ratio_ = 0;
 };
+
+/// Whether a candidate fills the same space as the mesh it was made of, within 1 % and two voxels of its box.
+/// \return as InsideGrid::sampled().
+Result<bool> fill_alike(const TriangleMesh& mesh, const TriangleMesh& candidate, int voxels_on_diagonal,
+                        const Job& job = {});
 
 /// The surface of the inside of a grid: closed, manifold and free of self-intersections, within about a voxel of
 /// `mesh` where that was whole. Marching tetrahedra over the distances to `mesh`, signed by the grid.

@@ -1,6 +1,7 @@
 #include "aplomb/mesh/detail/isolated_repair.h"
 
 #include <string>
+#include <utility>
 
 #include "aplomb/mesh/detail/mesh_bytes.h"
 
@@ -22,7 +23,7 @@ Result<std::optional<TriangleMesh>> mesh_of(Work work, const IsolationLimits& li
   if (!bytes) return tl::unexpected(bytes.error());
   if (bytes->empty()) return std::optional<TriangleMesh>();
   std::size_t at = 0;
-  return std::optional(unpacked(*bytes, at));
+  return unpacked(*bytes, at).map([](TriangleMesh mesh) { return std::optional(std::move(mesh)); });
 }
 
 }  // namespace
@@ -39,11 +40,12 @@ Result<ClosedSurface> closed_surface(const TriangleMesh& soup, const IsolationLi
       limits, job, "repair");
   if (!bytes) return tl::unexpected(bytes.error());
   std::size_t at = 0;
-  ClosedSurface closed;
-  closed.mesh = unpacked(*bytes, at);
-  closed.holes = take<FilledHole>(*bytes, at);
-  closed.holes_left = take<std::size_t>(*bytes, at).at(0);
-  return closed;
+  auto mesh = unpacked(*bytes, at);
+  if (!mesh) return tl::unexpected(mesh.error());
+  auto holes = take<FilledHole>(*bytes, at);
+  const auto holes_left = take<std::size_t>(*bytes, at);
+  if (!holes || !holes_left || holes_left->size() != 1) return spoilt();
+  return ClosedSurface{std::move(*mesh), std::move(*holes), holes_left->front()};
 }
 
 Result<std::optional<TriangleMesh>> united(const std::vector<TriangleMesh>& bodies, const IsolationLimits& limits,

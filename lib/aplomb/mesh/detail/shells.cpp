@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "aplomb/mesh/detail/crossings.h"
+#include "aplomb/mesh/detail/nesting.h"
 #include "aplomb/mesh/mass_properties.h"
 
 namespace aplomb::detail {
@@ -17,14 +19,19 @@ struct Shells {
   std::vector<bool> crosses;  // another component
 };
 
-Shells shells_of(const TriangleMesh& mesh) {
-  const TriangleTree tree(mesh);
-  Shells shells{edge_components(mesh, EdgeTable(mesh)), {}, {}, {}};
+Result<Shells> shells_of(const TriangleMesh& mesh, const Job& job) {
+  const EdgeTable edges(mesh);
+  Shells shells{edge_components(mesh, edges), {}, {}, {}};
   shells.volumes = volumes_mm3(mesh, shells.components);
-  shells.enclosing = enclosures(mesh, tree, shells.components);
+  Nesting nesting(mesh, edges, shells.components);
+  auto enclosing = nesting.enclosures(job.part(0, 0.5));
+  if (!enclosing) return tl::unexpected(enclosing.error());
+  shells.enclosing = std::move(*enclosing);
+  auto touching = nesting.touching(job.part(0.5, 1));
+  if (!touching) return tl::unexpected(touching.error());
   shells.crosses.resize(shells.components.count);
-  for (const auto [low, high] : meeting_components(mesh, tree, shells.components))
-    shells.crosses[low] = shells.crosses[high] = true;
+  for (std::uint32_t c = 0; c < shells.components.count; ++c)
+    if (const std::uint32_t first = touching->find(c); first != c) shells.crosses[first] = shells.crosses[c] = true;
   return shells;
 }
 
@@ -43,9 +50,11 @@ std::vector<bool> turns_of(const Shells& shells) {
 
 }  // namespace
 
-OrientedShells oriented_shells(const TriangleMesh& mesh) {
-  if (mesh.triangles.empty()) return {mesh};
-  const Shells shells = shells_of(mesh);
+Result<OrientedShells> oriented_shells(const TriangleMesh& mesh, const Job& job) {
+  if (mesh.triangles.empty()) return OrientedShells{mesh};
+  const Result<Shells> found = shells_of(mesh, job);
+  if (!found) return tl::unexpected(found.error());
+  const Shells& shells = *found;
   const std::vector<bool> turns = turns_of(shells);
   std::vector<std::uint32_t> outermost_first(shells.components.count);
   std::iota(outermost_first.begin(), outermost_first.end(), 0U);

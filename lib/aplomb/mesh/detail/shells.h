@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "aplomb/core/error.h"
+#include "aplomb/core/job.h"
 #include "aplomb/mesh/triangle_mesh.h"
 
 namespace aplomb::detail {
@@ -18,7 +20,8 @@ struct OrientedShells {
 /// Shells that cross others are wound outward, unless they lie in the box of another one, and never left out.
 ///
 /// \pre Every component is closed, manifold and consistently wound.
-OrientedShells oriented_shells(const TriangleMesh& mesh);
+/// \return as Nesting.
+Result<OrientedShells> oriented_shells(const TriangleMesh& mesh, const Job& job = {});
 
 /// The components as bodies to unite: 2 to 64, all wound outward; else nothing.
 std::vector<TriangleMesh> bodies_to_unite(const TriangleMesh& mesh);

@@ -1,9 +1,9 @@
 #include "aplomb/mesh/detail/soup.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <compare>
-#include <unordered_map>
 
 #include "aplomb/adapters/cgal/exact_predicates.h"
 #include "aplomb/mesh/detail/topology.h"
@@ -262,16 +262,22 @@ std::size_t split_open_edges(TriangleMesh& mesh) {
 
 }  // namespace
 
-TriangleMesh welded(const TriangleMesh& mesh) {
-  std::unordered_map<Place, std::uint32_t, PlaceHash> numbers;
-  numbers.reserve(mesh.vertices.size());
+Result<TriangleMesh> welded(const TriangleMesh& mesh, const Job& job) {
+  constexpr std::uint32_t empty = 0xFFFFFFFF;
+  const std::size_t mask = std::bit_ceil(2 * mesh.vertices.size() + 1) - 1;
+  std::vector<std::uint32_t> slots(mask + 1, empty);  // of the result's vertices by the hash of their place
   TriangleMesh result;
   std::vector<std::uint32_t> of_vertex(mesh.vertices.size());
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    if (v % 65536 == 0 && !job.report(double(v) / double(mesh.vertices.size()), "check")) return cancelled();
     const Place place = place_of(mesh.vertices[v]);
-    const auto [at, is_new] = numbers.try_emplace(place, static_cast<std::uint32_t>(result.vertices.size()));
-    if (is_new) result.vertices.push_back({place[0], place[1], place[2]});
-    of_vertex[v] = at->second;
+    std::size_t slot = PlaceHash()(place) & mask;
+    while (slots[slot] != empty && place_of(result.vertices[slots[slot]]) != place) slot = (slot + 1) & mask;
+    if (slots[slot] == empty) {
+      slots[slot] = static_cast<std::uint32_t>(result.vertices.size());
+      result.vertices.push_back({place[0], place[1], place[2]});
+    }
+    of_vertex[v] = slots[slot];
   }
   result.triangles.reserve(mesh.triangles.size());
   for (const Triangle& t : mesh.triangles)

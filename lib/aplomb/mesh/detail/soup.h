@@ -2,12 +2,16 @@
 
 #include <cstddef>
 
+#include "aplomb/core/error.h"
+#include "aplomb/core/job.h"
 #include "aplomb/mesh/triangle_mesh.h"
 
 namespace aplomb::detail {
 
 /// Coordinates rounded to float32, vertices at equal places made one (the first), unused ones dropped.
-TriangleMesh welded(const TriangleMesh& mesh);
+/// \return cancelled.
+Result<TriangleMesh> welded(const TriangleMesh& mesh, const Job& job);
+inline TriangleMesh welded(const TriangleMesh& mesh) { return *welded(mesh, {}); }
 
 /// Whether both hold the same triangles, whatever their order, numbering and first corner.
 bool same_triangles(const TriangleMesh& a, const TriangleMesh& b);

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "aplomb/core/pulse.h"
 #include "aplomb/mesh/triangle_mesh.h"
 
 namespace aplomb::detail {
@@ -25,13 +26,14 @@ inline Triangle sorted(Triangle t) {
 /// The undirected edges of a mesh, each with the corners that run along it, in linear time.
 class EdgeTable {
  public:
-  explicit EdgeTable(const TriangleMesh& mesh);
+  /// Where the pulse stopped, edges are missing.
+  explicit EdgeTable(const TriangleMesh& mesh, const Pulse& pulse = {});
 
   /// Calls visit(low vertex, high vertex, corners in ascending order) for every edge, in a fixed order. An
-  /// edge from a vertex to itself is left out.
+  /// edge from a vertex to itself is left out; and all that come after the pulse stopped.
   template <class Visit>
-  void for_each(Visit&& visit) const {
-    for (std::uint32_t low = 0; low + 1 < starts_.size(); ++low)
+  void for_each(Visit&& visit, const Pulse& pulse = {}) const {
+    for (std::uint32_t low = 0; low + 1 < starts_.size() && pulse.goes_on(); ++low)
       for (std::size_t first = starts_[low]; first < starts_[low + 1];) {
         std::size_t last = first + 1;
         while (last < starts_[low + 1] && highs_[last] == highs_[first]) ++last;
@@ -75,7 +77,8 @@ struct Components {
   std::uint32_t count = 0;
 };
 
-Components edge_components(const TriangleMesh& mesh, const EdgeTable& edges);
+/// Where the pulse stopped, of no use.
+Components edge_components(const TriangleMesh& mesh, const EdgeTable& edges, const Pulse& pulse = {});
 
 /// The triangles for which keep(t) holds, in order, with the vertices they use, in order.
 template <class Keep>

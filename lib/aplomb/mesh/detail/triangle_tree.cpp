@@ -4,7 +4,6 @@
 #include <cassert>
 
 namespace aplomb::detail {
-namespace {
 
 FloatBox box_of(const TriangleMesh& mesh, const Triangle& t) {
   FloatBox box{};
@@ -26,6 +25,8 @@ FloatBox united(const FloatBox& a, const FloatBox& b) {
   return box;
 }
 
+namespace {
+
 /// The ten low bits of x, two zero bits after each.
 std::uint32_t spread(std::uint32_t x) {
   x = (x | x << 16) & 0x030000FF;
@@ -34,29 +35,40 @@ std::uint32_t spread(std::uint32_t x) {
   return (x | x << 2) & 0x09249249;
 }
 
+constexpr std::uint32_t boxes_a_step = 64;  // about a microsecond
+
 struct Keyed {
-  std::uint32_t key, triangle;
+  std::uint32_t key, item;
 };
 
+std::vector<FloatBox> boxes_of(const TriangleMesh& mesh) {
+  std::vector<FloatBox> boxes(mesh.triangles.size());
+  for (std::size_t t = 0; t < boxes.size(); ++t) boxes[t] = box_of(mesh, mesh.triangles[t]);
+  return boxes;
+}
+
 /// Stable, by three passes of ten bits.
-void radix_sort(std::vector<Keyed>& items) {
+void radix_sort(std::vector<Keyed>& items, const Pulse& pulse) {
   std::vector<Keyed> sorted(items.size());
   for (int shift = 0; shift < 30; shift += 10) {
     std::array<std::size_t, 1025> starts{};
     for (const Keyed& item : items) ++starts[(item.key >> shift & 1023) + 1];
     for (std::size_t i = 1; i < starts.size(); ++i) starts[i] += starts[i - 1];
-    for (const Keyed& item : items) sorted[starts[item.key >> shift & 1023]++] = item;
+    std::uint32_t count = 0;
+    for (const Keyed& item : items) {
+      if (++count % boxes_a_step == 0 && !pulse.goes_on()) return;
+      sorted[starts[item.key >> shift & 1023]++] = item;
+    }
     items.swap(sorted);
   }
 }
 
 }  // namespace
 
-TriangleTree::TriangleTree(const TriangleMesh& mesh) {
-  assert(!mesh.triangles.empty());
-  std::vector<FloatBox> boxes(mesh.triangles.size());
-  FloatBox all = box_of(mesh, mesh.triangles[0]);
-  for (std::size_t t = 0; t < boxes.size(); ++t) all = united(all, boxes[t] = box_of(mesh, mesh.triangles[t]));
+BoxTree::BoxTree(const std::vector<FloatBox>& boxes, const Pulse& pulse) {
+  assert(!boxes.empty());
+  FloatBox all = boxes[0];
+  for (const FloatBox& box : boxes) all = united(all, box);
   std::array<double, 3> scale{};
   for (int axis = 0; axis < 3; ++axis) {
     const double size = double{all.max[axis]} - all.min[axis];
@@ -64,6 +76,7 @@ TriangleTree::TriangleTree(const TriangleMesh& mesh) {
   }
   std::vector<Keyed> items(boxes.size());
   for (std::uint32_t t = 0; t < items.size(); ++t) {
+    if (t % boxes_a_step == 0 && !pulse.goes_on()) return;
     std::uint32_t key = 0;
     for (int axis = 0; axis < 3; ++axis) {
       const double middle = 0.5 * (double{boxes[t].min[axis]} + boxes[t].max[axis]);
@@ -71,12 +84,13 @@ TriangleTree::TriangleTree(const TriangleMesh& mesh) {
     }
     items[t] = {key, t};
   }
-  radix_sort(items);
+  radix_sort(items, pulse);
   order_.resize(items.size());
   boxes_.resize(items.size());
   for (std::size_t i = 0; i < items.size(); ++i) {
-    order_[i] = items[i].triangle;
-    boxes_[i] = boxes[items[i].triangle];
+    if (i % boxes_a_step == 0 && !pulse.goes_on()) return;
+    order_[i] = items[i].item;
+    boxes_[i] = boxes[items[i].item];
   }
   const auto merged = [](const std::vector<FloatBox>& below, std::size_t arity) {
     std::vector<FloatBox> level((below.size() + arity - 1) / arity);
@@ -87,5 +101,7 @@ TriangleTree::TriangleTree(const TriangleMesh& mesh) {
   levels_.push_back(merged(boxes_, leaf_size));
   while (levels_.back().size() > 1) levels_.push_back(merged(levels_.back(), 2));
 }
+
+TriangleTree::TriangleTree(const TriangleMesh& mesh, const Pulse& pulse) : BoxTree(boxes_of(mesh), pulse) {}
 
 }  // namespace aplomb::detail

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
+#include "aplomb/core/pulse.h"
 #include "aplomb/mesh/triangle_mesh.h"
 
 namespace aplomb::detail {
@@ -19,42 +21,63 @@ struct FloatBox {
   }
 };
 
-/// Boxes of triangles in a binary tree: leaves of four triangles in Morton order, built bottom-up.
+/// Of a triangle. \pre Its coordinates are float32 values: the box is then exact.
+FloatBox box_of(const TriangleMesh& mesh, const Triangle& t);
+FloatBox united(const FloatBox& a, const FloatBox& b);
+
+/// Boxes in a binary tree: leaves of four in Morton order, built bottom-up.
 ///
-/// \pre Coordinates are float32 values (the boxes are then exact) and the mesh is not empty.
-/// \par Cost  O(n); 8 ms for 100k triangles.
-class TriangleTree {
+/// \pre There is a box.
+/// \par Cost  O(n); 8 ms for 100k boxes.
+class BoxTree {
  public:
   static constexpr std::uint32_t leaf_size = 4;
 
-  explicit TriangleTree(const TriangleMesh& mesh);
+  /// Where the pulse stopped, of no use.
+  explicit BoxTree(const std::vector<FloatBox>& boxes, const Pulse& pulse = {});
 
   std::uint32_t leaves() const { return static_cast<std::uint32_t>(levels_[0].size()); }
+  /// Level 0 is the leaves', the last one the root's; node i has children 2 i and 2 i + 1 a level below, if they exist.
+  std::uint32_t levels() const { return static_cast<std::uint32_t>(levels_.size()); }
+  std::uint32_t nodes(std::uint32_t level) const { return static_cast<std::uint32_t>(levels_[level].size()); }
+  std::span<const std::uint32_t> items_of(std::uint32_t leaf) const {
+    return {order_.data() + std::size_t{leaf} * leaf_size, order_.data() + leaf_end(leaf)};
+  }
 
-  /// Calls visit(s, t) once for every pair of triangles whose boxes meet and of which the one that stands
-  /// first in the tree is in the leaf; leaves 0 .. leaves() - 1 together give every pair.
+  /// Calls visit(s, t) once for every pair of items whose boxes meet and of which the one that stands first in the tree
+  /// is in the leaf; leaves 0 .. leaves() - 1 together give every pair.
   template <class Visit>
   void pairs_of_leaf(std::uint32_t leaf, Visit&& visit) const {
     const FloatBox box = levels_[0][leaf];
-    descend([&](const FloatBox& node) { return box.meets(node); }, leaf,
-            [&](std::uint32_t other) {
-              for (std::uint32_t i = leaf * leaf_size; i < leaf_end(leaf); ++i)
-                for (std::uint32_t j = other == leaf ? i + 1 : other * leaf_size; j < leaf_end(other); ++j)
-                  if (boxes_[i].meets(boxes_[j])) visit(order_[i], order_[j]);
-            });
-  }
-
-  /// Calls visit(t) for every triangle whose box satisfies `meets`, a test that holds for a box when it does
-  /// for a part of it.
-  template <class Meets, class Visit>
-  void for_each(Meets&& meets, Visit&& visit) const {
-    descend(meets, 0, [&](std::uint32_t leaf) {
+    const auto enter = [&](std::uint32_t level, std::uint32_t index, const FloatBox& node) {
+      return ((std::uint64_t{index} + 1) << level) > leaf && box.meets(node);
+    };
+    descend(enter, [&](std::uint32_t other) {
       for (std::uint32_t i = leaf * leaf_size; i < leaf_end(leaf); ++i)
-        if (meets(boxes_[i])) visit(order_[i]);
+        for (std::uint32_t j = other == leaf ? i + 1 : other * leaf_size; j < leaf_end(other); ++j)
+          if (boxes_[i].meets(boxes_[j])) visit(order_[i], order_[j]);
     });
   }
 
-  /// Calls visit(t) for triangles whose box is nearer than `bound`, which visit lowers; near children first.
+  /// Calls visit(t) for every item whose box satisfies `meets`, a test that holds for a box when it does for a part of
+  /// it.
+  template <class Meets, class Visit>
+  void for_each(Meets&& meets, Visit&& visit) const {
+    walk([&](std::uint32_t, std::uint32_t, const FloatBox& box) { return meets(box); },
+         [&](std::uint32_t item, const FloatBox& box) {
+           if (meets(box)) visit(item);
+         });
+  }
+
+  /// Calls enter(level, index, box) of nodes from the root down, and visit(item, box) of what is in the leaves entered.
+  template <class Enter, class Visit>
+  void walk(Enter&& enter, Visit&& visit) const {
+    descend(enter, [&](std::uint32_t leaf) {
+      for (std::uint32_t i = leaf * leaf_size; i < leaf_end(leaf); ++i) visit(order_[i], boxes_[i]);
+    });
+  }
+
+  /// Calls visit(t) for items whose box is nearer than `bound`, which visit lowers; near children first.
   template <class Distance, class Visit>
   void for_each_nearest_first(Distance&& distance, const double& bound, Visit&& visit) const {
     struct Node {
@@ -88,8 +111,8 @@ class TriangleTree {
     return std::min((leaf + 1) * leaf_size, static_cast<std::uint32_t>(order_.size()));
   }
 
-  template <class Meets, class VisitLeaf>
-  void descend(Meets&& meets, std::uint32_t first_leaf, VisitLeaf&& visit_leaf) const {
+  template <class Enter, class VisitLeaf>
+  void descend(Enter&& enter, VisitLeaf&& visit_leaf) const {
     struct Node {
       std::uint32_t level, index;
     };
@@ -98,8 +121,7 @@ class TriangleTree {
     stack[depth++] = {static_cast<std::uint32_t>(levels_.size() - 1), 0};
     while (depth > 0) {
       const Node node = stack[--depth];
-      if (((std::uint64_t{node.index} + 1) << node.level) <= first_leaf || !meets(levels_[node.level][node.index]))
-        continue;
+      if (!enter(node.level, node.index, levels_[node.level][node.index])) continue;
       if (node.level == 0) {
         visit_leaf(node.index);
         continue;
@@ -109,9 +131,17 @@ class TriangleTree {
     }
   }
 
-  std::vector<std::uint32_t> order_;           // triangles in Morton order
+  std::vector<std::uint32_t> order_;           // items in Morton order
   std::vector<FloatBox> boxes_;                // of order_[i]
   std::vector<std::vector<FloatBox>> levels_;  // [0] the leaves, the last one the root
+};
+
+/// The boxes of a mesh's triangles.
+///
+/// \pre Coordinates are float32 values and the mesh is not empty.
+class TriangleTree : public BoxTree {
+ public:
+  explicit TriangleTree(const TriangleMesh& mesh, const Pulse& pulse = {});
 };
 
 }  // namespace aplomb::detail

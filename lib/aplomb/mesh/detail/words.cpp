@@ -21,4 +21,13 @@ std::string percent(double ratio) {
   return text;
 }
 
+std::string lost_parts(const Box3& before, const Box3& after) {
+  constexpr double most_ratio = 0.015;
+  const double most_mm = most_ratio * before.diagonal();
+  if (norm(after.min - before.min) <= most_mm && norm(after.max - before.max) <= most_mm) return {};
+  const auto sides = [](Vec3 size) { return length(size.x) + " x " + length(size.y) + " x " + length(size.z); };
+  return "parts of it have no thickness: " + sides(before.size()) + " would become " + sides(after.size()) +
+         "; thicken them in a modeller, or insist (--repair force)";
+}
+
 }  // namespace aplomb::detail

@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <string>
 
+#include "aplomb/core/vec.h"
+
 /// Numbers as people read them in a report's sentences.
 namespace aplomb::detail {
 
@@ -12,5 +14,7 @@ std::string counted(std::size_t count, const char* one, const char* many);
 std::string length(double mm);
 /// "4.5 %", "38 %".
 std::string percent(double ratio);
+/// What a solid's box says of parts that a repair lost, and the remedy; empty when it is as it was.
+std::string lost_parts(const Box3& before, const Box3& after);
 
 }  // namespace aplomb::detail

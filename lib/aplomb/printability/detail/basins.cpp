@@ -5,8 +5,8 @@
 
 namespace aplomb::detail {
 
-Basins::Basins(const ClearanceLattice& lattice, double least_mm, double merge_ratio)
-    : lattice_(lattice), labels_(lattice.elements(), none) {
+Basins::Basins(const ClearanceLattice& lattice, double least_mm, double merge_ratio, const Pulse& pulse)
+    : lattice_(lattice), pulse_(pulse), labels_(lattice.elements(), none) {
   spread_wide(lattice.element({0, 0, 0}));
   peaks_.front().clearance_mm = std::numeric_limits<double>::infinity();
   const auto wide = static_cast<float>(lattice.wide_mm());
@@ -17,7 +17,10 @@ Basins::Basins(const ClearanceLattice& lattice, double least_mm, double merge_ra
     else if (clearance >= least_mm) order.push_back(element);
   }
   std::ranges::stable_sort(order, std::greater<>{}, [&](std::uint32_t e) { return lattice.clearance_mm(e); });
-  for (const std::uint32_t element : order) flood(element, merge_ratio);
+  for (const std::uint32_t element : order) {
+    if (!pulse_.goes_on(2)) return;
+    flood(element, merge_ratio);
+  }
 }
 
 std::uint32_t Basins::add_basin(std::uint32_t element) {
@@ -31,7 +34,7 @@ void Basins::spread_wide(std::uint32_t seed) {
   const std::uint32_t basin = add_basin(seed);
   Peak& peak = peaks_[basin];
   const auto wide = static_cast<float>(lattice_.wide_mm());
-  for (std::vector<std::uint32_t> stack{seed}; !stack.empty();) {
+  for (std::vector<std::uint32_t> stack{seed}; !stack.empty() && pulse_.goes_on(20);) {
     const std::uint32_t element = stack.back();
     stack.pop_back();
     if (const double clearance = lattice_.clearance_mm(element); clearance > peak.clearance_mm)

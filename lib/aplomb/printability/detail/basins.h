@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "aplomb/core/pulse.h"
 #include "aplomb/printability/detail/empty_space.h"
 
 namespace aplomb::detail {
@@ -23,8 +24,9 @@ class Basins {
   };
 
   /// Points of a clearance of least_mm or more; basins become one where the contact has `merge_ratio` of the smaller
-  /// peak. \par Cost  O(n log n) in the lattice's points.
-  Basins(const ClearanceLattice& lattice, double least_mm, double merge_ratio);
+  /// peak. \pre The pulse outlives this; where it stopped, basins are missing.
+  /// \par Cost  O(n log n) in the lattice's points.
+  Basins(const ClearanceLattice& lattice, double least_mm, double merge_ratio, const Pulse& pulse);
 
   std::uint32_t count() const { return static_cast<std::uint32_t>(peaks_.size()); }
   /// The basin as it is now; basins that became one have the smallest one's name.
@@ -52,6 +54,7 @@ class Basins {
   void flood(std::uint32_t element, double merge_ratio);
 
   const ClearanceLattice& lattice_;
+  const Pulse& pulse_;
   std::vector<std::uint32_t> labels_;  // per element
   std::vector<Peak> peaks_;
   std::vector<std::uint32_t> parents_;  // per basin: what it became one with, or itself

@@ -30,15 +30,15 @@ struct Less {
 };
 
 /// The widest way from `start` to where `is_end` holds, widest points first; `clearance` is 0 where it may not go.
-/// Empty when there is none.
+/// Empty when there is none, or when the pulse stopped.
 template <class Clearance, class IsEnd>
-Way widest_way(const VoxelIndex& start, Clearance&& clearance, IsEnd&& is_end) {
+Way widest_way(const VoxelIndex& start, Clearance&& clearance, IsEnd&& is_end, const Pulse& pulse) {
   std::priority_queue<Step, std::vector<Step>, Less> front;
   std::unordered_map<std::uint64_t, Step> from;  // the point before, with the clearance of this one
   const double first = clearance(start);
   front.push({start, first});
   from[key_of(start)] = {start, first};
-  while (!front.empty()) {
+  while (!front.empty() && pulse.goes_on(30)) {
     const Step here = front.top();
     front.pop();
     if (is_end(here)) {
@@ -63,7 +63,8 @@ Way widest_way(const VoxelIndex& start, Clearance&& clearance, IsEnd&& is_end) {
 }
 
 /// On the lattice, inside one basin, from a contact to near its peak.
-Way way_to_peak(const ClearanceLattice& lattice, const Basins& basins, const VoxelIndex& from, std::uint32_t basin) {
+Way way_to_peak(const ClearanceLattice& lattice, const Basins& basins, const VoxelIndex& from, std::uint32_t basin,
+                const Pulse& pulse) {
   const double goal = 0.95 * std::min(basins.peak_mm(basin), lattice.wide_mm());
   double widest = 0;
   const auto clearance = [&](const VoxelIndex& index) {
@@ -71,10 +72,13 @@ Way way_to_peak(const ClearanceLattice& lattice, const Basins& basins, const Vox
     if (element == ClearanceLattice::none || basins.of(element) != basin) return 0.0;
     return double(lattice.clearance_mm(element));
   };
-  Way way = widest_way(from, clearance, [&](const Step& step) { return step.clearance_mm >= goal; });
+  Way way = widest_way(
+      from, clearance, [&](const Step& step) { return step.clearance_mm >= goal; }, pulse);
   if (!way.empty()) return way;  // a polished peak may lie above every point: then to the widest there is
-  widest_way(from, clearance, [&](const Step& step) { return widest = std::max(widest, step.clearance_mm), false; });
-  return widest_way(from, clearance, [&](const Step& step) { return step.clearance_mm >= widest; });
+  const auto widens = [&](const Step& step) { return widest = std::max(widest, step.clearance_mm), false; };
+  widest_way(from, clearance, widens, pulse);
+  return widest_way(
+      from, clearance, [&](const Step& step) { return step.clearance_mm >= widest; }, pulse);
 }
 
 std::size_t narrowest(const Way& way) {
@@ -93,7 +97,7 @@ Way doubtful_part(const Way& way, double below_mm) {
 }
 
 /// The same way on a lattice of half the spacing, free to move by three of its steps.
-Way refined(const EmptySpace& space, const VoxelFrame& fine, const Way& way) {
+Way refined(const EmptySpace& space, const VoxelFrame& fine, const Way& way, const Pulse& pulse) {
   std::unordered_set<std::uint64_t> allowed;  // cells of 2^3 fine points
   for (const Step& step : way)
     for (int n = 0; n < 64; ++n)
@@ -107,7 +111,8 @@ Way refined(const EmptySpace& space, const VoxelFrame& fine, const Way& way) {
     hint = here.triangle;
     return here.mm;
   };
-  return widest_way(twice(way.front().index), clearance, [&](const Step& step) { return step.index == end; });
+  return widest_way(
+      twice(way.front().index), clearance, [&](const Step& step) { return step.index == end; }, pulse);
 }
 
 Passage passage_of(const Way& way, const VoxelFrame& frame) {
@@ -132,10 +137,11 @@ bool is_within(const Box3& box, Vec3 point) {
 }  // namespace
 
 Passage find_passage(const EmptySpace& space, const ClearanceLattice& lattice, const Basins& basins,
-                     const Basins::Contact& contact, double enough_mm) {
-  Way way = way_to_peak(lattice, basins, contact.a, contact.basin_a);
+                     const Basins::Contact& contact, double enough_mm, const Pulse& pulse) {
+  Way way = way_to_peak(lattice, basins, contact.a, contact.basin_a, pulse);
   std::ranges::reverse(way);
-  const Way rest = way_to_peak(lattice, basins, contact.b, contact.basin_b);
+  const Way rest = way_to_peak(lattice, basins, contact.b, contact.basin_b, pulse);
+  if (pulse.stopped()) return {};
   way.insert(way.end(), rest.begin(), rest.end());
   VoxelFrame frame = lattice.frame();
   for (;;) {
@@ -143,7 +149,8 @@ Passage find_passage(const EmptySpace& space, const ClearanceLattice& lattice, c
     if (least >= enough_mm || frame.voxel_mm <= least / fineness) return passage_of(way, frame);
     const Way doubtful = doubtful_part(way, least + 2.5 * frame.voxel_mm);
     frame.voxel_mm *= 0.5;
-    Way finer = refined(space, frame, doubtful);
+    Way finer = refined(space, frame, doubtful, pulse);
+    if (pulse.stopped()) return {};
     if (finer.empty()) return passage_of(way, lattice.frame());
     way = std::move(finer);
   }

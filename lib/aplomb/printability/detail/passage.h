@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "aplomb/core/pulse.h"
 #include "aplomb/printability/detail/basins.h"
 
 namespace aplomb::detail {
@@ -15,11 +16,11 @@ struct Passage {
 
 /// Follows the widest way over the contact from basin a's peak to basin b's, then again on ever finer lattices round
 /// the way found last, until the spacing is a sixtieth of the clearance, which is then less than 1.2 % too small.
-/// Ends early with what it has when that is `enough_mm` or more.
+/// Ends early with what it has when that is `enough_mm` or more, and with nothing where the pulse stopped.
 ///
 /// \par Cost  20 to 200 ms, the more the longer the way is narrow.
 Passage find_passage(const EmptySpace& space, const ClearanceLattice& lattice, const Basins& basins,
-                     const Basins::Contact& contact, double enough_mm);
+                     const Basins::Contact& contact, double enough_mm, const Pulse& pulse);
 
 /// From a point uphill to where the clearance is largest nearby; the point itself where that leads out of the solid's
 /// box, beyond which there is no end of it.

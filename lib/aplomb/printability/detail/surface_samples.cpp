@@ -49,13 +49,13 @@ Cell cell_of(Vec3 point, double size) {
 
 }  // namespace
 
-SurfaceSamples sample_surface(const TriangleMesh& mesh, double spacing_mm, std::size_t at_most) {
+SurfaceSamples sample_surface(const TriangleMesh& mesh, double spacing_mm, std::size_t at_most, const Pulse& pulse) {
   double area = 0;
   for (const Triangle& t : mesh.triangles) area += area_mm2(mesh, t);
   SurfaceSamples out{{}, std::max(spacing_mm, std::sqrt(area / static_cast<double>(at_most)))};
   const double s = out.spacing_mm;
   double owed = 0;  // area of small triangles without a sample
-  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+  for (std::uint32_t i = 0; i < mesh.triangles.size() && pulse.goes_on(); ++i) {
     const Triangle& t = mesh.triangles[i];
     std::array<Vec3, 3> p{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
     const std::array<double, 3> sides{norm(p[1] - p[0]), norm(p[2] - p[1]), norm(p[0] - p[2])};
@@ -74,11 +74,11 @@ SurfaceSamples sample_surface(const TriangleMesh& mesh, double spacing_mm, std::
 }
 
 std::vector<std::vector<std::uint32_t>> groups_within(const std::vector<Vec3>& points, double reach_mm,
-                                                      const std::function<bool()>& goes_on) {
+                                                      const Pulse& pulse) {
   std::unordered_map<Cell, std::vector<std::uint32_t>, CellHash> cells;
   DisjointSets sets(points.size());
   for (std::uint32_t i = 0; i < points.size(); ++i) {
-    if (i % 1024 == 0 && goes_on && !goes_on()) return {};
+    if (!pulse.goes_on(5)) return {};
     const Cell home = cell_of(points[i], reach_mm);
     for (int n = 0; n < 27; ++n) {
       const Cell near{{home.index[0] + n / 9 - 1, home.index[1] + n / 3 % 3 - 1, home.index[2] + n % 3 - 1}};
