@@ -13,6 +13,9 @@ FIXTURES = pathlib.Path(os.environ["APLOMB_FIXTURES"])
 
 END, JSON, MESH, POSITIONS = range(4)
 
+# The T-Rex falls by itself; carved on a coarse grid it stands, in a second or two.
+QUICK = {"poses": [{"stand": {"tip_deg": 2}}], "voxel_mm": 0.8, "ceiling": "any"}
+
 
 def words(payload):
     return struct.unpack("<%dI" % (len(payload) // 4), payload)
@@ -83,8 +86,9 @@ class Answer:
 
 
 class Studio:
-    def __init__(self, *arguments, environment=None, program=PROGRAM):
-        self.process = subprocess.Popen([program, "--no-browser", *arguments], stdout=subprocess.PIPE, text=True,
+    def __init__(self, *arguments, environment=None, program=PROGRAM, opens_browser=False):
+        arguments = arguments if opens_browser else ("--no-browser", *arguments)
+        self.process = subprocess.Popen([program, *arguments], stdout=subprocess.PIPE, text=True,
                                         env={**os.environ, **(environment or {})})
         line = self.process.stdout.readline()
         self.address = re.search(r"http://127\.0\.0\.1:(\d+)/#(\w+)$", line.strip())
@@ -132,8 +136,8 @@ class Studio:
     def fixture(self, name):
         return self.post("/api/fixture", name=name).json()["id"]
 
-    def upload(self, path):
-        return self.request("POST", f"/api/model?name={path.name}", path.read_bytes()).json()["id"]
+    def upload(self, path, kind="model"):
+        return self.request("POST", f"/api/{kind}?name={path.name}", path.read_bytes()).json()["id"]
 
     def children(self):
         """(process id, command line) of the server's own."""

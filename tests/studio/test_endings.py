@@ -9,7 +9,7 @@ import time
 import unittest
 
 import studio
-from studio import JSON
+from studio import JSON, QUICK
 
 LONG = {"poses": [{"stand": {"tip_deg": 10}}], "voxel_mm": 0.3}  # of some ten seconds
 BEND = {"deform": "only", "deform_limit_percent": 50, "poses": [{"stand": {"tip_deg": 30}}]}
@@ -104,6 +104,24 @@ class Endings(unittest.TestCase):
         self.studio.post("/api/cancel")
         self.assertEqual(self.last(frames), {"type": "cancelled"})
         self.assertTrue(self.is_placed())
+
+    def test_what_is_written_may_be_taken_while_its_page_is_drawn_and_after_that_was_cancelled(self):
+        def take(what):
+            return self.studio.post("/api/take", model=self.trex, job=QUICK, what=what)
+
+        frames = self.studio.stream("/api/stand", model=self.trex, job=QUICK).frames()
+        next(frames)
+        run = self.child("aplomb run")
+        next(message for _, message in frames if message["type"] == "report")
+        os.kill(run, signal.SIGSTOP)  # it draws its page
+        next(message for kind, message in frames if kind == JSON and message["type"] == "written")
+        taken = take("3mf")
+        self.assertEqual((taken.status, taken.body[:2]), (200, b"PK"))
+        self.assertEqual(take("stl").status, 200)
+        self.assertEqual((take("html").status, take("html").json()["code"]), (409, 1))
+        self.studio.post("/api/cancel")
+        self.assertEqual(self.last(frames), {"type": "cancelled"})
+        self.assertEqual(take("3mf").body, taken.body)
 
     def test_a_page_that_goes_away_takes_its_work_with_it(self):
         stream = self.studio.stream("/api/stand", model=self.trex, job=LONG)

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Who gets in: nobody but the page that the server gave out, and nothing that is too large."""
 import http.client
+import json
 import os
 import pathlib
 import shutil
@@ -42,6 +43,36 @@ class Guard(unittest.TestCase):
                                  ("POST", "/api/stand"), ("GET", "/api/no_such")):
                 self.assertEqual(self.status(method, path, b"" if method == "POST" else None, Authorization=wrong), 401, wrong)
         self.assertIsNone(self.studio.process.poll())
+
+    def test_the_browsers_command_line_has_a_ticket_that_lets_in_once_and_not_the_token(self):
+        folder = self.models / "opener"
+        folder.mkdir()
+        (folder / "xdg-open").write_text(f"#!/bin/sh\necho \"$1\" >{folder}/part && mv {folder}/part {folder}/opened\n")
+        (folder / "xdg-open").chmod(0o755)
+        with studio.Studio(opens_browser=True, environment={"PATH": f"{folder}:{os.environ['PATH']}"}) as opened:
+            deadline = time.monotonic() + 20
+            while not (folder / "opened").exists() and time.monotonic() < deadline:
+                time.sleep(0.02)
+            address, _, ticket = (folder / "opened").read_text().strip().partition("#once-")
+            self.assertEqual(address, f"http://127.0.0.1:{opened.port}/")
+            self.assertNotIn(opened.token, ticket)
+
+            def ask(word, **changes):
+                return opened.request("POST", "/api/token", json.dumps({"name": word}).encode(), Authorization=None, **changes)
+
+            for wrong in ("", ticket[:-1], ticket + "0", opened.token):
+                self.assertEqual(ask(wrong).status, 401)
+            self.assertEqual(ask(ticket, Host="rebound.example").status, 403)
+            self.assertEqual(ask(ticket, Origin="http://rebound.example").status, 403)
+            self.assertEqual(ask(ticket).json(), {"token": opened.token})
+            self.assertEqual(ask(ticket).status, 401)
+
+    def test_what_has_no_place_on_the_disk_is_refused_before_it_is_sent(self):
+        with studio.Studio("--max-upload", "1e9", environment={"TMPDIR": self.folder.name}) as large:
+            free = shutil.disk_usage(self.models).free
+            answer = large.request("POST", "/api/model?name=a.stl", b"", Content_Length=str(free))
+            self.assertEqual((answer.status, answer.json()["code"]), (500, 2))
+            self.assertRegex(answer.json()["error"], "^there is no place for [0-9]+ MB in .*: [0-9]+ MB are free$")
 
     def test_the_token_is_long_and_another_each_time(self):
         with studio.Studio() as other:

@@ -9,10 +9,10 @@ import tempfile
 import unittest
 
 import studio
-from studio import JSON, MESH, POSITIONS
+from studio import JSON, MESH, POSITIONS, QUICK
 
-# Falls by itself; carved on a coarse grid it stands, in a second or two.
-QUICK = {"poses": [{"stand": {"tip_deg": 2}}], "voxel_mm": 0.8, "ceiling": "any"}
+
+PROFILE = "perimeters = 2\nfill_density = 15%\nlayer_height = 0.2\nfirst_layer_height = 0.2\nfilament_density = 1.3\n"
 
 
 def run(*arguments, folder=None):
@@ -140,7 +140,7 @@ class Protocol(unittest.TestCase):
         frames = list(self.studio.stream("/api/preview", model=self.trex, job=job, wish=7).frames())
         self.assertEqual([kind for kind, _ in frames], [JSON, POSITIONS] * (len(frames) // 2))
         last, positions = frames[-2][1], frames[-1][1]
-        self.assertEqual((last["type"], last["wish"], last["settled"], last["carved_deg"]), ("preview", 7, True, None))
+        self.assertEqual((last["type"], last["wish"], last["settled"]), ("preview", 7, True))
         self.assertEqual([message["settled"] for _, message in frames[:-2:2]], [False] * (len(frames) // 2 - 1))
         self.assertEqual(len(positions), len(mesh.vertices))
         moved = [math.dist(a, b) for a, b in zip(mesh.vertices, positions)]
@@ -148,9 +148,29 @@ class Protocol(unittest.TestCase):
         self.assertAlmostEqual(sum(moved) / len(moved), last["mean_mm"], 3)
         self.assertEqual(max(d for d, v in zip(moved, mesh.vertices) if v[2] <= 0.1), 0)
         self.assertLess(math.dist(positions[mesh.vertices.index(top)], target), 1 + last["handle_short_mm"])
-        self.assertEqual(last["poses"][0]["name"], "feet")
-        self.assertGreater(last["poses"][0]["tip_deg"], -2.2)  # it was pulled back over its feet
-        self.assertLess(last["center_mm"][0], placed["center_mm"][0])
+        self.assertEqual((last["poses"][0]["name"], last["poses"][0]["carved_deg"]), ("feet", None))
+        bent, solid = last["poses"][0], self.only("report", "/api/check", model=self.trex, job={**job, "handles": []})["report"]["poses"][0]
+        self.assertEqual(bent["before"].keys(), solid["before"].keys())  # as in a report
+        self.assertGreater(bent["before"]["tip_deg"], solid["before"]["tip_deg"])  # it was pulled back over its feet
+        self.assertLess(bent["before"]["com_mm"][0], placed["center_mm"][0])
+
+    def test_a_preview_says_which_way_it_falls_as_it_is_bent(self):
+        job = {"poses": [{"stand": {"tip_deg": 1}}], "deform_limit_percent": 20,
+               "handles": [{"at_mm": [60, 0, 80], "radius_mm": 9, "to_mm": [20, 60, 80]}]}
+        as_it_came = self.only("report", "/api/check", model=self.trex, job={"poses": job["poses"]})["report"]["poses"][0]
+        bent = self.studio.stream("/api/preview", model=self.trex, job=job, wish=1).messages()[-1]["poses"][0]
+        self.assertGreater(as_it_came["before"]["weak_edge"]["heading"][0], 0.9)
+        self.assertGreater(bent["before"]["weak_edge"]["heading"][1], 0.5)
+
+    def test_a_preview_of_several_poses_says_what_each_could_reach(self):
+        (_, placed), _ = self.studio.stream("/api/place", model=self.trex, job={}).frames()
+        top = [(low + high) / 2 for low, high in zip(*placed["box_mm"])][:2] + [placed["box_mm"][1][2]]
+        job = {"poses": [{"stand": {"tip_deg": 1}}, {"hang": {"from_mm": [top], "tilt_deg": 30}}], "deform": "auto",
+               "handles": [{"at_mm": [60, 0, 80], "radius_mm": 9, "turn_deg": [0, 20, 0]}]}
+        stands, hangs = self.studio.stream("/api/preview", model=self.trex, job=job, wish=1).messages()[-1]["poses"]
+        self.assertGreater(stands["carved_deg"], stands["before"]["tip_deg"])
+        self.assertGreater(stands["carved_deg"], 0)
+        self.assertLess(hangs["carved_deg"], 90)
 
     def test_a_preview_takes_handles_where_a_run_would_not_bend(self):
         job = {"handles": [{"at_mm": [60, 0, 80], "radius_mm": 9, "turn_deg": [0, 20, 0]}]}
@@ -163,7 +183,7 @@ class Protocol(unittest.TestCase):
         frames = list(self.studio.stream("/api/stand", model=self.trex, job=QUICK).frames())
         kinds = [m["type"] if kind == JSON else m.name for kind, m in frames]
         self.assertEqual([kind for kind in kinds if kind != "progress"][:2], ["report", "outside"])
-        self.assertIn("void", kinds)
+        self.assertIn("void", kinds[:kinds.index("written")])
         report = frames[kinds.index("report")][1]
         self.assertTrue(report["message"].startswith("Stands now: "), report["message"])
         self.assertEqual(frames[-1][1], {"type": "ended", "code": 0, "message": report["message"]})
@@ -191,13 +211,13 @@ class Protocol(unittest.TestCase):
         model = self.studio.fixture("galloping_horse.stl")
         frames = list(self.studio.stream("/api/stand", model=model, job=QUICK).frames())
         self.assertEqual([kind for kind, _ in frames if kind == MESH], [])
+        self.assertNotIn("written", [message["type"] for _, message in frames])
         self.assertEqual((frames[-1][1]["type"], frames[-1][1]["code"]), ("ended", 3))
         self.assertEqual(self.studio.post("/api/take", model=model, job=QUICK, what="3mf").status, 409)
         self.assertEqual(self.studio.post("/api/take", model=model, job=QUICK, what="html").status, 200)
 
     def test_it_begins_with_a_job_of_the_command_line(self):
-        (self.folder / "sliced.ini").write_text("perimeters = 2\nfill_density = 15%\nlayer_height = 0.2\n"
-                                                "first_layer_height = 0.2\nfilament_density = 1.3\n")
+        (self.folder / "sliced.ini").write_text(PROFILE)
         (self.folder / "trex.stl").write_bytes((studio.FIXTURES / "trex.stl").read_bytes())
         job = {"aplomb_job": 1, "model": "trex.stl", "profile": "sliced.ini", "report": "told.json", "poses": [{"stand": {"tip_deg": 3}}]}
         (self.folder / "job.json").write_text(json.dumps(job))
@@ -205,9 +225,44 @@ class Protocol(unittest.TestCase):
             start = begun.request("GET", "/api/start").json()
             self.assertEqual(start["job"], {"poses": job["poses"]})
             self.assertEqual(start["model"]["name"], "trex.stl")
-            frames = list(begun.stream("/api/stand", model=start["model"]["id"], job=start["job"]).frames())
+            self.assertEqual(start["profile"]["name"], "sliced.ini")
+            asked = {"model": start["model"]["id"], "profile": start["profile"]["id"], "job": start["job"]}
+            frames = list(begun.stream("/api/stand", **asked).frames())
             self.assertEqual([m.name for kind, m in frames if kind == MESH], ["outside", "dense"])
-            self.assertEqual(begun.post("/api/take", model=start["model"]["id"], job=start["job"], what="stl").status, 409)
+            self.assertEqual(begun.post("/api/take", **asked, what="stl").status, 409)
+
+    def test_a_profile_makes_it_what_is_sliced_as_on_the_command_line(self):
+        (self.folder / "sliced.ini").write_text(PROFILE)
+        (self.folder / "trex.stl").write_bytes((studio.FIXTURES / "trex.stl").read_bytes())
+        asked = {"model": self.trex, "profile": self.studio.upload(self.folder / "sliced.ini", "profile"),
+                 "job": {"poses": [{"stand": {"tip_deg": 3}}]}}
+        told = self.only("report", "/api/check", **asked)
+        run("check", "trex.stl", "--tip", "3deg", "--profile", "sliced.ini", "--report", "told.json", folder=self.folder)
+        self.assertEqual(told["report"]["poses"], json.loads((self.folder / "told.json").read_text())["poses"])
+        self.assertNotEqual(told["report"]["poses"], self.only("report", "/api/check", **{**asked, "profile": 0})["report"]["poses"])
+        names = [m.name for kind, m in self.studio.stream("/api/stand", **asked).frames() if kind == MESH]
+        self.assertEqual(names, ["outside", "dense"])
+        self.assertEqual(self.studio.post("/api/take", **{**asked, "profile": 0}, what="3mf").status, 409)
+        (self.folder / "trex-job.json").write_bytes(self.studio.post("/api/take", **asked, what="job").body)
+        self.assertEqual(run("run", "trex-job.json", folder=self.folder)[0], 0)
+        made = self.studio.post("/api/take", **asked, what="3mf").body
+        self.assertEqual((self.folder / "trex-standing.3mf").read_bytes(), made)
+
+    def test_a_profile_that_is_none_is_refused_in_the_sentence_of_the_command_line(self):
+        for name, text in {"words.ini": "no settings", "wrong.ini": "fill_density = 700%\nlayer_height = 0.2\n"}.items():
+            (self.folder / name).write_text(text)
+            code, lines = run("check", str(studio.FIXTURES / "trex.stl"), "--profile", name, folder=self.folder)
+            answer = self.studio.request("POST", f"/api/profile?name={name}", text.encode())
+            self.assertEqual((answer.status, answer.json()["code"]), (400, code))
+            self.assertEqual("aplomb: " + answer.json()["error"], lines[-1])
+        self.assertEqual(self.studio.post("/api/check", model=self.trex, profile=99, job={}).status, 409)
+
+    def test_a_profile_of_the_models_name_does_not_take_its_place(self):
+        (self.folder / "trex.stl").write_text(PROFILE)
+        asked = {"model": self.trex, "profile": self.studio.upload(self.folder / "trex.stl", "profile"), "job": {"ballast": "only"}}
+        job = self.studio.post("/api/take", **asked, what="job").json()
+        self.assertEqual((job["model"], job["profile"]), ("trex.stl", "trex.stl.profile"))
+        self.assertIn("dense", [m.name for kind, m in self.studio.stream("/api/stand", **asked).frames() if kind == MESH])
 
     def test_a_file_that_is_not_there_ends_it_at_once(self):
         done = subprocess.run([studio.PROGRAM, "--no-browser", "no_such.stl"], capture_output=True, text=True, check=False, timeout=20)

@@ -35,6 +35,39 @@ export function making(bench) {
     });
     after(() => page.context().close());
 
+    test('while it runs, what is typed stays, a slow press is one, and arrow keys go from tab to tab', async () => {
+      const page = await openPage(bench.browser, bench.empty.address); // on its fine grid a run outlasts all of this
+      const tabs = page.locator('[role=tab]'), asked = page.getByLabel('Asked'), aWhile = () => page.waitForTimeout(300);
+      await page.click('[data-fixture="trex.stl"]');
+      await verdict(page, /Falls/);
+      await page.click('.tab.add');
+      await verdict(page, /0 of 2|\u2212(?!2\.2)/);
+      await page.click('#make');
+      await page.locator('#cancel').waitFor();
+      await asked.focus();
+      for (const key of '12') {
+        await page.keyboard.press(key);
+        await aWhile();
+      }
+      assert.equal(await asked.inputValue(), '12');
+      await asked.fill(''); // as it was
+      await tabs.first().hover();
+      await page.mouse.down();
+      await aWhile();
+      await page.mouse.up();
+      await page.locator('[role=tab][aria-selected="true"]', {hasText: 'pose 1'}).waitFor();
+      for (const name of ['pose 2', 'pose 1', 'pose 2']) {
+        await page.keyboard.press('ArrowRight');
+        await page.waitForFunction((wanted) => document.activeElement.textContent === wanted, name);
+        await aWhile();
+        assert.equal(await page.evaluate(() => document.activeElement.textContent), name);
+      }
+      assert.ok(await page.locator('#cancel').isVisible(), 'it ran all the while');
+      await page.keyboard.press('Control+z');
+      await page.locator('#make').waitFor();
+      await page.context().close();
+    });
+
     test('a run can be cancelled', async () => {
       await verdict(page, /Falls/);
       await page.click('#make');
@@ -53,9 +86,13 @@ export function making(bench) {
       await page.keyboard.press('Control+Enter');
       const is = angleIn(await verdict(page, /Stands: /));
       assert.ok(was < 0 && is >= 10, `${was}, ${is}`);
+      assert.ok(await page.locator('[data-take="3mf"]').isEnabled(), 'it is written, and may be saved, while the report is drawn');
       await page.locator('#make', {hasText: 'Made'}).waitFor();
       const open = await voidPixels(page);
       assert.ok(open > 5000 && open > 10 * solid, `${solid} pixels of void before, ${open} after`);
+      await page.click('#cut-at');
+      await page.keyboard.press('1'); // a slider has the focus, and no use for it
+      await page.locator('[data-look="solid"][aria-pressed="true"]').waitFor();
     });
 
     test('what is taken away is what the command line makes and judges', async () => {
@@ -83,9 +120,12 @@ export function making(bench) {
       await verdict(page, /Falls/);
       await page.click('#judge');
       await page.locator('.findings li.fail').first().waitFor();
-      const mark = page.locator('.finding-mark').first();
-      await mark.dispatchEvent('click'); // it may lie under another one
-      await page.locator(`.findings li.open[data-number="${await mark.textContent()}"]`).waitFor();
+      const marks = await page.locator('.finding-mark').all();
+      assert.ok(marks.length > 1);
+      for (const mark of marks) { // a pointer reaches each of them
+        await mark.click();
+        await page.locator(`.findings li.open[data-number="${await mark.textContent()}"]`).waitFor();
+      }
     });
 
     test('where it is asked for, a run begins when the hand rests, and once for each job', async () => {

@@ -7,9 +7,11 @@ import {join} from 'node:path';
 
 import {launchBrowser, programs, startStudio} from './support/studio.mjs';
 import {failing} from './failing.mjs';
+import {holding} from './holding.mjs';
 import {making} from './making.mjs';
 import {opening} from './opening.mjs';
 import {shaping} from './shaping.mjs';
+import {slicing} from './slicing.mjs';
 
 const coarse = {aplomb_job: 1, model: 'trex.stl', voxel_mm: 0.8, ceiling: 'any'};
 const bench = {}; // browser, empty, coarse: filled before the first test
@@ -31,5 +33,7 @@ describe('studio', () => {
   opening(bench);
   making(bench);
   shaping(bench);
+  slicing(bench);
+  holding(bench);
   failing(bench);
 });

@@ -25,7 +25,7 @@ int run(int argc, char** argv) {
   app.add_option("--port", options.port, "of 127.0.0.1 (default: any that is free)")->check(CLI::Range(0, 65535));
   app.add_flag("--no-browser", no_browser, "only print the address");
   app.add_option("--max-upload", most_upload_mb, "largest file that the page may send, in MB (default 512)")
-      ->check(CLI::Range(0.001, 100000.0));
+      ->check(CLI::Range(0.001, 1e9));
   app.add_flag("--solver", is_solver)->group("");  // hidden: what the server starts
   try {
     app.parse(argc, argv);

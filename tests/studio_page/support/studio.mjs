@@ -8,6 +8,8 @@ import {fileURLToPath} from 'node:url';
 
 import {chromium} from 'playwright-core';
 
+import {decodePng} from './png.mjs';
+
 const root = join(dirname(fileURLToPath(import.meta.url)), '..', '..', '..'), tools = join(root, 'build', 'release', 'tools');
 
 /** What is tested: as ctest names it, else what lies in build/release. */
@@ -68,6 +70,16 @@ export function angleIn(text) {
 /** Two pictures' time, so that what was asked to be drawn is drawn. */
 export async function drawn(page) {
   await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame(done)))));
+}
+
+/** Points of the scene that are drawn otherwise, by more than a shade. */
+export async function changed(page, before) {
+  await drawn(page);
+  const now = decodePng(await page.screenshot()), then = decodePng(before);
+  let count = 0;
+  for (let y = 130; y < 730; y += 2)
+    for (let x = 100; x < 950; x += 2) if (Math.abs(now.at(x, y)[0] - then.at(x, y)[0]) > 12) ++count;
+  return count;
 }
 
 /** Presses a place of the window, drags it in steps, and lets go. `each` is called between the steps. */

@@ -28,6 +28,11 @@ std::string text_at(const Json& json, const char* key) {
   return at != json.end() && at->is_string() ? at->get<std::string>() : std::string();
 }
 
+int number_at(const Json& json, const char* key) {
+  const auto at = json.find(key);
+  return at != json.end() && at->is_number_integer() ? at->get<int>() : 0;
+}
+
 }  // namespace
 
 Result<Ask> parse_ask(const std::string& body) {
@@ -40,7 +45,8 @@ Result<Ask> parse_ask(const std::string& body) {
   }
   if (!json.is_object()) return refuse("the request is no JSON object");
   Ask ask{.of = text_at(json, "of"), .what = text_at(json, "what"), .name = text_at(json, "name")};
-  if (json.contains("model") && json["model"].is_number_integer()) ask.model = json["model"].get<int>();
+  ask.model = number_at(json, "model");
+  ask.profile = number_at(json, "profile");
   if (json.contains("wish") && json["wish"].is_number()) ask.wish = json["wish"].get<double>();
   const Json job = json.value("job", Json::object());
   if (!job.is_object()) return refuse("the job is no object");
@@ -50,8 +56,9 @@ Result<Ask> parse_ask(const std::string& body) {
   return ask;
 }
 
-bool same_json(const std::string& a, const std::string& b) {
-  return nlohmann::json::parse(a, nullptr, false) == nlohmann::json::parse(b, nullptr, false);
+bool same_work(const Ask& a, const Ask& b) {
+  const auto unordered = [](const std::string& job) { return nlohmann::json::parse(job, nullptr, false); };
+  return a.model == b.model && a.profile == b.profile && unordered(a.job) == unordered(b.job);
 }
 
 std::string without_files(const std::string& text) {

@@ -47,6 +47,12 @@ bool are_equal(std::string_view a, std::string_view b) {
   return difference == 0;
 }
 
+bool Ticket::take(std::string_view word) {
+  const std::lock_guard lock(mutex_);
+  if (is_taken_ || std::chrono::steady_clock::now() > until_ || !are_equal(word, word_)) return false;
+  return is_taken_ = true;
+}
+
 Guard::Guard(std::string token, int port, std::size_t most_body_bytes)
     : token_(std::move(token)), port_(std::to_string(port)), most_body_bytes_(most_body_bytes) {}
 
@@ -66,7 +72,9 @@ int Guard::refusal(const httplib::Request& request) const {
   if (request.has_header("Origin") && !is_own_origin(request.get_header_value("Origin"))) return forbidden;
   const std::string site = request.get_header_value("Sec-Fetch-Site");
   if (!site.empty() && site != "same-origin" && site != "none") return forbidden;
-  if (request.path.starts_with("/api/") && !are_equal(request.get_header_value("Authorization"), "Bearer " + token_))
+  const bool asks_for_token = request.path == "/api/token" && request.method == "POST";
+  if (request.path.starts_with("/api/") && !asks_for_token &&
+      !are_equal(request.get_header_value("Authorization"), "Bearer " + token_))
     return unauthorized;
   if (!request.has_header("Content-Length")) return 0;
   const std::string length = request.get_header_value("Content-Length");

@@ -11,6 +11,7 @@ namespace {
 
 constexpr auto patience = std::chrono::seconds(5);        // with a child that was told to cancel
 constexpr auto at_once = std::chrono::milliseconds(200);  // who dies so soon was dying when it was asked
+constexpr std::size_t most_talk_bytes = 4096;
 
 }  // namespace
 
@@ -22,15 +23,21 @@ bool Resident::start(Stream& stream) {
   }
   child_.emplace(std::move(*child));
   frames_.emplace(child_->output());
+  talk_.clear();
   return true;
 }
 
+void Resident::listen() {
+  talk_ += child_->talk(0);
+  if (talk_.size() > most_talk_bytes) talk_.erase(0, talk_.size() - most_talk_bytes);
+}
+
 bool Resident::tell_of_death(Stream& stream) {
-  const std::string talk = child_->talk(0);
+  listen();
   const auto status = child_->ended(500);
   const bool exited = status && WIFEXITED(*status);
   stream.json(error_message(exited ? WEXITSTATUS(*status) : static_cast<int>(Ending::internal),
-                            last_words(talk, status.value_or(SIGKILL))));
+                            last_words(talk_, status.value_or(SIGKILL))));
   child_.reset();
   return false;
 }
@@ -53,6 +60,7 @@ Resident::Heard Resident::converse(const SolverRequest& request, Stream& stream)
   std::optional<std::chrono::steady_clock::time_point> told_to_cancel;
   for (Frame frame;;) {
     const auto got = frames_->read(frame, 10);
+    listen();
     const auto now = std::chrono::steady_clock::now();
     if (!told_to_cancel && stream.is_over()) {
       told_to_cancel = now;

@@ -26,10 +26,13 @@ class Resident {
   bool start(Stream& stream);
   Heard converse(const SolverRequest& request, Stream& stream);
   bool tell_of_death(Stream& stream);
+  /// What it says on standard error: the pipe must not fill up, and its last words may be asked for.
+  void listen();
 
   std::filesystem::path program_;
   std::optional<Child> child_;
   std::optional<FrameReader> frames_;
+  std::string talk_;
   std::uint32_t last_number_ = 0;
 };
 

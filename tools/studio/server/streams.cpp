@@ -31,17 +31,17 @@ void Routes::add_streams(httplib::Server& server) {
 }
 
 void Routes::stream(Response& response, const Ask& ask, Errand errand) {
-  const auto model = models_.find(ask.model);
-  if (!model) return refuse(response, conflict, Ending::usage, "that model is no longer here");
+  const auto work = work_of(ask, response);
+  if (!work) return;
   const auto turn = turns_.ask(errand);
   response.set_chunked_content_provider(
       "application/octet-stream",
-      [this, ask, model = *model, errand, turn](std::size_t, httplib::DataSink& sink) {
+      [this, ask, work = *work, errand, turn](std::size_t, httplib::DataSink& sink) {
         Stream stream(sink, *turn);
         while (!stream.is_over() && !turns_.is_up(*turn, 50)) stream.stay_alive();
         try {
           if (stream.is_over()) stream.json(cancelled_message());
-          else answer(ask, model, errand, stream);
+          else answer(ask, work, errand, stream);
         } catch (const std::exception& error) {  // a bug, or no memory; the library would let it end the server
           stream.json(error_message(static_cast<int>(Ending::internal), error.what()));
         }
@@ -52,16 +52,16 @@ void Routes::stream(Response& response, const Ask& ask, Errand errand) {
       [this, turn](bool) { turns_.leave(*turn); });
 }
 
-void Routes::answer(const Ask& ask, const Model& model, Errand errand, Stream& stream) {
-  const std::string job = job_file_text(ask.job, model, false, false);
+void Routes::answer(const Ask& ask, const Work& work, Errand errand, Stream& stream) {
+  const std::string job = job_text(work, JobReader::solver);
   if (errand == Errand::stand)  // the others are told by the solver
     if (const auto parsed = parse_job(job, ""); !parsed) return stream.json(error_message(parsed.error()));
-  SolverRequest request{.what = "place", .folder = model.folder.string(), .job = job, .wish = ask.wish};
+  SolverRequest request{.what = "place", .folder = work.model.folder.string(), .job = job, .wish = ask.wish};
   switch (errand) {
     case Errand::stand:
-      return stand(ask, model, stream);
+      return stand(ask, work, stream);
     case Errand::validate:
-      if (ask.of == "result") return validate_result(ask, model, stream);
+      if (ask.of == "result") return validate_result(ask, work, stream);
       request.what = "validate";
       break;
     case Errand::check:
@@ -76,18 +76,26 @@ void Routes::answer(const Ask& ask, const Model& model, Errand errand, Stream& s
   resident_.answer(request, stream);
 }
 
-void Routes::stand(const Ask& ask, const Model& model, Stream& stream) {
+void Routes::stand(const Ask& ask, const Work& work, Stream& stream) {
   const fs::path folder = places_.models / fmt::format("run-{}", ++runs_);  // one at a time: see Turns
-  auto made = run_whole(places_.aplomb, folder, model, ask.job, stream, resident_);
+  const RunOrder order{places_.aplomb, work, {folder, work.model.stem()}};
   std::error_code ignored;
-  const std::lock_guard lock(made_mutex_);
-  if (made) std::swap(made, made_), made_of_ = ask;
-  else made = Made{folder, model.stem()};
-  if (made) fs::remove_all(made->folder, ignored);
+  bool is_kept = false;
+  const auto keep = [&] {
+    is_kept = true;
+    const std::lock_guard lock(made_mutex_);
+    if (made_) fs::remove_all(made_->folder, ignored);
+    made_ = order.made;
+    made_of_ = ask;
+  };
+  const bool has_ended = run_whole(order, stream, resident_, keep);
+  if (is_kept) return;  // what was written stays, even where its page was not drawn to the end
+  if (has_ended) keep();
+  else fs::remove_all(folder, ignored);
 }
 
 /// The file that was written, as it is: it was placed when it was made.
-void Routes::validate_result(const Ask& ask, const Model& model, Stream& stream) {
+void Routes::validate_result(const Ask& ask, const Work& work, Stream& stream) {
   const auto made = [&] {
     const std::lock_guard lock(made_mutex_);
     return made_of(ask);
@@ -95,7 +103,7 @@ void Routes::validate_result(const Ask& ask, const Model& model, Stream& stream)
   if (!made || !fs::exists(made->mesh()))
     return stream.json(
         error_message(static_cast<int>(Ending::usage), "make it stand first: there is no result of this job"));
-  auto job = nlohmann::ordered_json::parse(job_file_text(ask.job, model, false, false));
+  auto job = nlohmann::ordered_json::parse(job_text(work, JobReader::solver));
   job["model"] = made->mesh().filename().string();
   for (const char* key : {"place", "profile", "ballast"}) job.erase(key);
   resident_.answer({.what = "validate", .folder = made->folder.string(), .job = job.dump()}, stream);

@@ -10,6 +10,7 @@
 #endif
 
 #include <array>
+#include <cerrno>
 #include <iostream>
 #include <thread>
 
@@ -94,7 +95,8 @@ int run_studio(const StudioOptions& options) {
   constexpr const char* host = "127.0.0.1";
   const int port = options.port == 0 ? server.bind_to_any_port(host) : options.port;
   if (port <= 0 || (options.port != 0 && !server.bind_to_port(host, port)))
-    return complain({ErrorCode::invalid_option, fmt::format("port {} is taken; leave --port out", options.port)});
+    return complain({ErrorCode::invalid_option, fmt::format("port {} {}; leave --port out", options.port,
+                                                            errno == EACCES ? "is not for this user" : "is taken")});
 
   const PrivateFolder folder;
   const Places places = places_of(options.program, folder.path());
@@ -106,10 +108,10 @@ int run_studio(const StudioOptions& options) {
     if (const auto begun = routes.begin_with(options.given); !begun) return complain(begun.error());
   routes.add_to(server);
 
-  const std::string address = fmt::format("http://{}:{}/#{}", host, port, token);
-  fmt::print("Aplomb Studio: {}\nIt ends with Ctrl-C.\n", address);
+  const std::string address = fmt::format("http://{}:{}/#", host, port);
+  fmt::print("Aplomb Studio: {}{}\nIt ends with Ctrl-C.\n", address, token);
   std::fflush(stdout);
-  if (options.opens_browser) open_browser(address);
+  if (options.opens_browser) open_browser(address + "once-" + routes.ticket());
   std::thread([&server, &routes, endings] {
     int number = 0;
     sigwait(&endings, &number);

@@ -53,15 +53,15 @@ std::string text_of(const fs::path& file) {
   return text.str();
 }
 
-/// Puts the model and the job into the run's folder. \return whether that went well.
-bool prepare(const fs::path& folder, const Model& model, const std::string& job) {
+/// Puts the model, the profile and the job into the run's folder. \return whether that went well.
+bool prepare(const Made& made, const Work& work) {
   std::error_code failed;
-  fs::create_directory(folder, failed);
-  for (const std::string& name : {model.name, model.profile})
-    if (!failed && !name.empty()) fs::create_hard_link(model.folder / name, folder / name, failed);
-  std::ofstream(folder / (model.stem() + "-job.json"))
-      << job_file_text(job, model, true, !model.profile.empty()) << std::flush;
-  return !failed && fs::exists(folder / (model.stem() + "-job.json"));
+  fs::create_directory(made.folder, failed);
+  if (!failed) fs::create_hard_link(work.model.file(), made.folder / work.model.name, failed);
+  if (!failed && work.profile) fs::create_hard_link(work.profile->file(), made.folder / work.profile_name(), failed);
+  std::ofstream job(made.job());
+  job << job_text(work, JobReader::run) << std::flush;
+  return !failed && job;
 }
 
 std::string ended_message(int code, const std::string& sentence) {
@@ -72,8 +72,8 @@ std::string ended_message(int code, const std::string& sentence) {
 /// One run of the program, told to a stream.
 class WholeRun {
  public:
-  WholeRun(const Made& made, Stream& stream, Resident& resident)
-      : made_(made), stream_(stream), resident_(resident), listener_(stream) {}
+  WholeRun(const Made& made, Stream& stream, Resident& resident, const std::function<void()>& on_written)
+      : made_(made), stream_(stream), resident_(resident), on_written_(on_written), listener_(stream) {}
 
   /// \return whether it came to its end, standing or not.
   bool follow(Child& child) {
@@ -111,6 +111,9 @@ class WholeRun {
                                   .dense = made_.dense().filename().string(),
                                   .stl = made_.stl().filename().string()};
     is_broken_ = !resident_.answer(read_back, stream_);
+    if (is_broken_) return;
+    on_written_();
+    stream_.json(written_message());
   }
 
   bool finish(Child& child, int status) {
@@ -129,6 +132,7 @@ class WholeRun {
   const Made& made_;
   Stream& stream_;
   Resident& resident_;
+  const std::function<void()>& on_written_;
   Listener listener_;
   bool is_shown_ = false;
   bool is_broken_ = false;  // the stream has been told why
@@ -136,30 +140,20 @@ class WholeRun {
 
 }  // namespace
 
-std::string job_file_text(const std::string& job, const Model& model, bool with_output, bool with_dense) {
-  Json text{{"aplomb_job", 1}, {"model", model.name}};
-  if (with_output) text["output"] = model.stem() + "-standing.3mf";
-  if (with_dense) text["modifier"] = model.stem() + "-dense.stl";
-  if (!model.profile.empty()) text["profile"] = model.profile;
-  text.update(Json::parse(job));
-  return text.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
-std::optional<Made> run_whole(const fs::path& program, const fs::path& folder, const Model& model,
-                              const std::string& job, Stream& stream, Resident& resident) {
-  const Made made{folder, model.stem()};
-  if (!prepare(folder, model, job)) {
+bool run_whole(const RunOrder& order, Stream& stream, Resident& resident, const std::function<void()>& on_written) {
+  const Made& made = order.made;
+  if (!prepare(made, order.work)) {
     stream.json(error_message(static_cast<int>(Ending::unusable_input), "there is no place for the run"));
-    return std::nullopt;
+    return false;
   }
-  auto child = Child::start({program.string(), "run", made.stem + "-job.json", "--progress", "json", "--report",
-                             made.report().filename().string(), "--html", made.page().filename().string()},
-                            folder);
+  auto child = Child::start({order.program.string(), "run", made.job().filename().string(), "--progress", "json",
+                             "--report", made.report().filename().string(), "--html", made.page().filename().string()},
+                            made.folder);
   if (!child) {
     stream.json(error_message(child.error()));
-    return std::nullopt;
+    return false;
   }
-  return WholeRun(made, stream, resident).follow(*child) ? std::optional(made) : std::nullopt;
+  return WholeRun(made, stream, resident, on_written).follow(*child);
 }
 
 }  // namespace aplomb::studio

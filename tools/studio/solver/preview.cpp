@@ -1,9 +1,10 @@
 #include "solver/preview.h"
 
-#include <fmt/format.h>
-
+#include <array>
 #include <nlohmann/json.hpp>
 #include <numbers>
+
+#include "aplomb/report/json.h"
 
 namespace aplomb::studio {
 namespace {
@@ -13,26 +14,20 @@ using Json = nlohmann::ordered_json;
 constexpr double degree = std::numbers::pi / 180;
 constexpr int most_stages = 100;  // of one wish
 
-/// How the poses hold the bent solid, uncarved: as measure_pose() has it, without what only a report tells.
-Result<Json> poses_of(const TriangleMesh& surface, const Moments& body, const StandOptions& options) {
+/// How the poses hold the bent solid, uncarved, and what they would reach if the best void for all were carved: null
+/// where nothing is to be carved.
+Result<Json> poses_of(const BendStage& stage, const Moments& body, const JointProblem& joint,
+                      const StandOptions& options) {
   const std::array regions{Region{body, options.density_g_per_cm3, 0.02}};
   Json list = Json::array();
-  for (std::size_t i = 0; i < options.poses.size(); ++i) {
-    const Pose& pose = options.poses[i];
-    Json& said = list.emplace_back();
-    said["name"] = pose.name.empty() ? fmt::format("pose {}", i + 1) : pose.name;
-    if (const HangingPose* hanging = pose.hanging()) {
-      const Hanging measured = measure_hanging(regions, *hanging);
-      said["tilt_deg"] = measured.tilt_rad / degree;
-      said["holds"] = holds(pose, measured, kind_of(options));
-      continue;
-    }
-    auto support = support_polygon(surface, *pose.standing());
-    if (!support) return tl::unexpected(support.error());
-    Standing measured;
-    measured.stability = measure_stability(*support, regions, *pose.standing());
-    said["tip_deg"] = measured.stability.tip_rad / degree;
-    said["holds"] = holds(pose, measured, kind_of(options));
+  for (const Pose& pose : options.poses) {
+    auto measured = measure_pose(stage.surface, regions, pose);
+    if (!measured) return tl::unexpected(measured.error());
+    const bool does_hold = holds(pose, *measured, kind_of(options));
+    const PoseReport report{pose, std::move(*measured), std::nullopt, does_hold};
+    Json& said = list.emplace_back(Json::parse(to_json(report, list.size() + 1)));
+    said["carved_deg"] = nullptr;
+    if (options.deform != Deform::only) said["carved_deg"] = angle_at_rad(pose, joint, stage.t) / degree;
   }
   return list;
 }
@@ -41,20 +36,11 @@ Result<std::string> message_of(const BendStage& stage, const JointProblem& joint
                                double wish) {
   const Moments body = moments(stage.surface);
   if (!(body.volume_mm3 > 0)) return fail(ErrorCode::third_party, "bent so far, nothing of the solid is left");
-  auto poses = poses_of(stage.surface, body, options);
+  auto poses = poses_of(stage, body, joint, options);
   if (!poses) return tl::unexpected(poses.error());
-  const Vec3 center = body.centroid_mm();
-  Json carved;
-  if (options.deform != Deform::only && joint.bound_of != BoundOf::surplus) carved = joint.angle_rad(stage.t) / degree;
-  const Json message{{"type", "preview"},
-                     {"wish", wish},
-                     {"settled", stage.settled},
-                     {"mean_mm", stage.mean_mm},
-                     {"max_mm", stage.max_mm},
-                     {"handle_short_mm", stage.handle_short_mm},
-                     {"center_mm", {center.x, center.y, center.z}},
-                     {"poses", std::move(*poses)},
-                     {"carved_deg", carved}};
+  const Json message{{"type", "preview"},         {"wish", wish},           {"settled", stage.settled},
+                     {"mean_mm", stage.mean_mm},  {"max_mm", stage.max_mm}, {"handle_short_mm", stage.handle_short_mm},
+                     {"poses", std::move(*poses)}};
   return message.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 

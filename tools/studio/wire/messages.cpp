@@ -28,6 +28,8 @@ std::string cancelled_message() { return R"({"type":"cancelled"})"; }
 
 std::string alive_message() { return R"({"type":"alive"})"; }
 
+std::string written_message() { return R"({"type":"written"})"; }
+
 std::string progress_message(double fraction, std::string_view stage) {
   return text_of({{"type", "progress"}, {"fraction", fraction}, {"stage", stage}});
 }

@@ -18,6 +18,7 @@ bool is_error(std::string_view message);
 
 std::string cancelled_message();
 std::string alive_message();
+std::string written_message();
 std::string progress_message(double fraction, std::string_view stage);
 
 /// {"type": TYPE, KEY: what `json` holds, "message": SENTENCE}; without a sentence no key `message`. \pre json is one.

@@ -1,19 +1,11 @@
+import {type Focused, isTyped, keepsKey, toolKeys} from './keys';
+import {withHandles} from './state/job';
 import type {Look, ToolName} from './state/ui';
 import type {Toolbox} from './tools/toolbox';
-import {withHandles} from './state/job';
 import type {Bench} from './tools/tool';
 
-export const toolKeys: Readonly<Record<ToolName, string>> = {look: 'V', face: 'F', turn: 'R', touch: 'C', handle: 'H', lock: 'L'};
-
-/** What the help shows. */
-export const keyList: readonly (readonly [string, string])[] = [
-  ['Ctrl Enter', 'make it stand'], ['Ctrl Z', 'undo'], ['Ctrl Shift Z', 'redo'], ['Escape', 'cancel tool, then run'],
-  ['V F R C H L', 'tools, from the top'], ['1 2 3', 'solid, see through, cut'], ['Space', 'let it fall'], ['0', 'show all of it'],
-  ['[ ]', 'smaller, larger brush'], ['Arrows, PgUp, PgDn', 'move the handle in hand'], ['Delete', 'take the handle away'],
-  ['Ctrl O', 'open'], ['Ctrl S', 'save 3MF'], ['?', 'this list'],
-];
-
 interface Actions {
+  readonly make: () => void;
   readonly open: () => void;
   readonly save: () => void;
   readonly help: () => void;
@@ -22,11 +14,11 @@ interface Actions {
 /** The keyboard, except where something is being typed. */
 export function listenToKeys(bench: Bench, toolbox: Toolbox, actions: Actions): void {
   addEventListener('keydown', (event) => {
-    const target = event.target as HTMLElement, isTyping = /^(INPUT|SELECT|TEXTAREA)$/.test(target.tagName);
+    const target = event.target as HTMLElement, isTyping = isTyped(target as Focused);
     if (document.querySelector('dialog[open]')) return;
     if (event.key === 'Escape') return escape(bench, toolbox, target, isTyping);
     const done = event.ctrlKey || event.metaKey ? command(bench, actions, event, isTyping)
-                                                : !isTyping && !event.altKey && plain(bench, actions, event, target);
+                                                : !event.altKey && !keepsKey(target as Focused, event.key) && plain(bench, actions, event);
     if (done) event.preventDefault();
   });
 }
@@ -35,11 +27,11 @@ export function listenToKeys(bench: Bench, toolbox: Toolbox, actions: Actions): 
 function escape(bench: Bench, toolbox: Toolbox, target: HTMLElement, isTyping: boolean): void {
   if (isTyping) target.blur();
   else if (bench.view.falls) bench.view.stopFall();
-  else if (!toolbox.cancel() && bench.results.value.busy) void bench.conductor.cancel();
+  else if (!toolbox.cancel()) bench.conductor.cancel();
 }
 
 function command(bench: Bench, actions: Actions, event: KeyboardEvent, isTyping: boolean): boolean {
-  const {documents, conductor, results} = bench;
+  const {documents, results} = bench;
   switch (event.key.toLowerCase()) {
     case 'z':
       if (isTyping && !(event.target as HTMLInputElement).readOnly && !event.shiftKey) (event.target as HTMLElement).blur();
@@ -50,7 +42,7 @@ function command(bench: Bench, actions: Actions, event: KeyboardEvent, isTyping:
       documents.redo();
       return true;
     case 'enter':
-      if (documents.doc.model && !results.value.busy) void conductor.runs.stand();
+      if (documents.doc.model && !results.value.busy) actions.make();
       return true;
     case 'o':
       actions.open();
@@ -63,15 +55,13 @@ function command(bench: Bench, actions: Actions, event: KeyboardEvent, isTyping:
   }
 }
 
-function plain({ui, view, documents}: Bench, actions: Actions, event: KeyboardEvent, target: HTMLElement): boolean {
+function plain({ui, view, documents}: Bench, actions: Actions, event: KeyboardEvent): boolean {
   const tool = (Object.keys(toolKeys) as ToolName[]).find((name) => toolKeys[name].toLowerCase() === event.key.toLowerCase());
   if (tool && !event.shiftKey && documents.doc.model) return ui.patch({tool}), true;
   const look = ({1: 'solid', 2: 'xray', 3: 'section'} as Record<string, Look>)[event.key];
   if (look) return ui.patch({look}), true;
-  const isButton = target.tagName === 'BUTTON' || target.tagName === 'SUMMARY' || target.getAttribute('role') === 'tab';
   switch (event.key) {
     case ' ':
-      if (isButton) return false;
       view.fall();
       return true;
     case '0':
@@ -87,7 +77,7 @@ function plain({ui, view, documents}: Bench, actions: Actions, event: KeyboardEv
     case 'Delete':
       return dropHandle(ui, documents);
     default:
-      return !isButton && nudge(ui, documents, event.key, event.shiftKey);
+      return nudge(ui, documents, event.key, event.shiftKey) || orbit(view, event.key, event.shiftKey);
   }
 }
 
@@ -102,6 +92,14 @@ function dropHandle(ui: Bench['ui'], documents: Bench['documents']): boolean {
 const ways: Record<string, readonly [number, number, number]> = {
   ArrowRight: [1, 0, 0], ArrowLeft: [-1, 0, 0], ArrowUp: [0, 1, 0], ArrowDown: [0, -1, 0], PageUp: [0, 0, 1], PageDown: [0, 0, -1],
 };
+
+/** The eye goes where the arrow points, by 15 degrees, or with Shift by 3. */
+function orbit(view: Bench['view'], key: string, isFine: boolean): boolean {
+  const way = ways[key], step = isFine ? 3 : 15;
+  if (!way || way[2] !== 0) return false;
+  view.stage.orbit(step * way[0], step * way[1]);
+  return true;
+}
 
 /** A millimetre, or with Shift a tenth. */
 function nudge(ui: Bench['ui'], documents: Bench['documents'], key: string, isFine: boolean): boolean {

@@ -13,12 +13,12 @@ export class Theme {
 
   toggle(): void {
     const chosen = this.isDark ? 'light' : 'dark';
-    localStorage.setItem('aplomb-theme', chosen);
+    document.cookie = `aplomb-theme=${chosen}; SameSite=Strict; max-age=${400 * 24 * 3600}`; // storage is each port's own
     this.#apply(chosen);
   }
 
   get #chosen(): string | null {
-    return localStorage.getItem('aplomb-theme');
+    return /\baplomb-theme=(light|dark)\b/.exec(document.cookie)?.[1] ?? null;
   }
 
   #apply(chosen: string | null): void {

@@ -19,6 +19,20 @@ test('undo and redo give back each value, and a new one forgets what was undone'
   assert.equal(undone(undone(undone(undone(all)))).present.value, 'a');
 });
 
+test('a profile is a step that can be undone, and without one nothing asks for ballast', () => {
+  const store = new DocumentStore(), profile = {id: 2, name: 'a.ini', bytes: 1};
+  store.open(model);
+  store.slice(profile);
+  store.change({ballast: 'only'}, 'ballast');
+  store.slice(null);
+  assert.deepEqual([store.doc.profile, store.doc.job], [null, {}]);
+  store.undo();
+  assert.deepEqual([store.doc.profile, store.doc.job], [profile, {ballast: 'only'}]);
+  store.undo();
+  store.undo();
+  assert.equal(store.doc.profile, null);
+});
+
 test('a drag is one step however many wishes it had, and one that changes nothing is none', () => {
   const store = new DocumentStore();
   store.open(model);
@@ -30,6 +44,24 @@ test('a drag is one step however many wishes it had, and one that changes nothin
   store.undo();
   assert.equal(store.doc.job.wall_mm, undefined);
   assert.ok(!store.canUndo, 'not before the model');
+});
+
+test('work is what was done beyond opening, whatever was undone', () => {
+  const store = new DocumentStore();
+  store.open(model);
+  store.open({...model, id: 2});
+  assert.ok(!store.hasWork);
+  store.change({wall_mm: 2}, 'wall');
+  assert.ok(store.hasWork);
+  store.undo();
+  assert.ok(!store.hasWork);
+});
+
+test('a job that is taken as a whole keeps its points, which are of its own placement', () => {
+  const store = new DocumentStore(), job: Job = {place: {up: 'y'}, lock: [{at_mm: [1, 2, 3], radius_mm: 1}]};
+  store.open(model);
+  store.adopt(job);
+  assert.deepEqual([store.doc.job, store.doc.frame], [job, placeKey(job)]);
 });
 
 test('a standard is not written into the job', () => {

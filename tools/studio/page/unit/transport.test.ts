@@ -1,33 +1,10 @@
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
 
-import {Client, Refusal, nameIn} from '../src/transport/client';
+import {Client, Refusal, nameIn, tokenOf} from '../src/transport/client';
 import {type Frame, FrameReader} from '../src/transport/frames';
 import {Newest} from '../src/transport/newest';
-
-function frame(kind: number, payload: Uint8Array): Uint8Array {
-  const bytes = new Uint8Array(8 + payload.length), view = new DataView(bytes.buffer);
-  view.setUint32(0, payload.length, true);
-  view.setUint32(4, kind, true);
-  bytes.set(payload, 8);
-  return bytes;
-}
-
-const json = (message: object) => frame(1, new TextEncoder().encode(JSON.stringify(message)));
-const end = frame(0, new Uint8Array());
-
-function mesh(name: string): Uint8Array {
-  const padded = new Uint8Array(4 * Math.ceil(name.length / 4));
-  padded.set(new TextEncoder().encode(name));
-  const words = new Uint8Array([...new Uint8Array(new Uint32Array([name.length]).buffer), ...padded,
-    ...new Uint8Array(new Uint32Array([3, 1]).buffer), ...new Uint8Array(new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0.5]).buffer),
-    ...new Uint8Array(new Uint32Array([0, 1, 2]).buffer)]);
-  return frame(2, words);
-}
-
-function stream(...parts: Uint8Array[]): Uint8Array {
-  return new Uint8Array(parts.flatMap((part) => [...part]));
-}
+import {end, frame, json, mesh, stream} from './frames';
 
 test('frames are the same however the bytes are cut', () => {
   const bytes = stream(json({type: 'placed', volume: 2}), mesh('model'), mesh('outside1'), end);
@@ -42,6 +19,17 @@ test('frames are the same however the bytes are cut', () => {
     assert.deepEqual([...first.mesh.triangles], [0, 1, 2]);
     assert.ok(reader.ended);
   }
+});
+
+test('a ticket of the address is changed for the token, once', async () => {
+  const asked: unknown[] = [];
+  const fetcher = (async (path: string, init: RequestInit) => {
+    asked.push([path, init.method, init.body]);
+    return new Response('{"token": "abc"}');
+  }) as typeof fetch;
+  assert.equal(await tokenOf('once-123', fetcher), 'abc');
+  assert.equal(await tokenOf('def', fetcher), 'def');
+  assert.deepEqual(asked, [['/api/token', 'POST', '{"name":"123"}']]);
 });
 
 test('a frame that this page does not know is an error', () => {

@@ -1,4 +1,4 @@
-import {keyList} from '../keyboard';
+import {keyList} from '../keys';
 import {h, icon} from './dom';
 import {icons} from './icons';
 
@@ -14,4 +14,12 @@ export function dialog(title: string, body: HTMLElement): HTMLDialogElement {
 export function keysTable(): HTMLElement {
   return h('table', {class: 'keys'}, ...keyList.map(([keys, does]) =>
     h('tr', {}, h('th', {scope: 'row'}, ...keys.split(' ').flatMap((key) => [h('kbd', {}, key.replace(',', '')), ' '])), h('td', {}, does))));
+}
+
+/** Asks before something is done that cannot be undone. The answer that does nothing is at hand. */
+export function question(title: string, text: string, deed: string, act: () => void): HTMLDialogElement {
+  const yes = h('button', {class: 'plain', 'data-answer': 'yes', onclick: act}, deed);
+  const no = h('button', {class: 'plain primary', autofocus: true, onclick: () => element.close()}, 'Stay here');
+  const element = dialog(title, h('div', {class: 'question'}, h('p', {}, text), h('div', {class: 'answers'}, yes, no)));
+  return element;
 }

@@ -18,6 +18,16 @@ interface NumberOptions {
   readonly change: (value: number | undefined) => void;
 }
 
+/** Shows text in an input. What is being typed there stays until the value itself is another, as after undo. */
+export function shownIn(input: HTMLInputElement): (text: string) => void {
+  let shown: string | null = null;
+  return (text) => {
+    if (text === shown && document.activeElement === input) return;
+    if (input.value !== text) input.value = text;
+    shown = text;
+  };
+}
+
 /** A number with its unit; empty means the standard, which is shown in its place. */
 export function numberField(options: NumberOptions): Part {
   const id = newId();
@@ -26,14 +36,14 @@ export function numberField(options: NumberOptions): Part {
     min: options.min === undefined ? undefined : String(options.min), max: options.max === undefined ? undefined : String(options.max),
     onchange: () => options.change(input.value === '' ? undefined : Number(input.value)),
   });
+  const show = shownIn(input);
   const element = h('div', {class: 'field'}, h('label', {for: id}, options.label),
                     h('span', {class: 'with-unit'}, input, h('span', {class: 'unit'}, options.unit)));
   return {
     element,
     update: () => {
-      const value = options.value(), text = value === undefined ? '' : String(Math.round(value * 1e4) / 1e4);
-      if (input.value !== text && document.activeElement !== input) input.value = text;
-      else if (input.value !== text && Number(input.value) !== value) input.value = text;
+      const value = options.value();
+      show(value === undefined ? '' : String(Math.round(value * 1e4) / 1e4));
       input.placeholder = options.standard();
     },
   };
@@ -80,14 +90,15 @@ export function tripleField(label: string, unit: string, step: number, value: ()
     type: 'number', step: String(step), placeholder: '0', 'aria-label': `${label}, ${axis}, ${unit}`,
     onchange: () => change(inputs.map((input) => Number(input.value || 0)) as [number, number, number]),
   }));
+  const shows = inputs.map(shownIn);
   return {
     element: h('div', {class: 'field triple', role: 'group', 'aria-label': label}, h('span', {class: 'label'}, label),
                h('span', {class: 'three'}, ...inputs.map((input, axis) =>
                  h('span', {class: 'with-unit'}, h('span', {class: 'axis', 'aria-hidden': 'true'}, 'xyz'[axis]!), input)),
                  h('span', {class: 'unit', 'aria-hidden': 'true'}, unit))),
-    update: () => inputs.forEach((input, axis) => {
-      const number = value()?.[axis] ?? 0, text = number === 0 ? '' : String(Math.round(number * 100) / 100);
-      if (document.activeElement !== input || Number(input.value || 0) !== Math.round(number * 100) / 100) input.value = text;
+    update: () => shows.forEach((show, axis) => {
+      const number = value()?.[axis] ?? 0;
+      show(number === 0 ? '' : String(Math.round(number * 100) / 100));
     }),
   };
 }

@@ -29,6 +29,7 @@ export function findingsPanel({documents, results, ui, conductor}: Bench): Part 
           h('span', {}, h('strong', {}, `${words[finding.severity]}: `), finding.text)),
         finding.remedy ? h('p', {class: 'remedy'}, finding.remedy) : null)));
       shown = judgement;
+      ui.patch({finding: null}); // its number was of the other judgement
     }
     for (const item of list.children as HTMLCollectionOf<HTMLElement>) {
       const isIt = Number(item.dataset.number) === ui.value.finding;

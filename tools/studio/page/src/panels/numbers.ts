@@ -15,14 +15,14 @@ const rows: readonly (readonly [string, string, (figures: Figures) => number | n
 ];
 
 /** What was measured, before and after. */
-export function numbersPanel({documents, results, ui}: Bench): Part {
+export function numbersPanel({documents, results, ui, conductor}: Bench): Part {
   const table = h('table', {class: 'numbers'});
   const update = () => {
-    const found = figuresOf(results.value, documents.doc, ui.value.pose);
+    const found = figuresOf(results.value, documents.asked, ui.value.pose, conductor.answering);
     folded.element.hidden = found === null;
     if (!found) return;
     const {before, after} = found.pose;
-    const head = h('tr', {}, h('th', {}), h('th', {scope: 'col'}, 'solid'), after ? h('th', {scope: 'col'}, 'made') : null, h('th', {}));
+    const head = h('tr', {}, h('th', {}), h('th', {scope: 'col'}, documents.doc.profile ? 'sliced' : 'solid'), after ? h('th', {scope: 'col'}, 'made') : null, h('th', {}));
     table.replaceChildren(head, ...rows.flatMap(([name, unit, value]) => {
       const was = value(before), is = after ? value(after) : null;
       if (typeof was !== 'number') return [];

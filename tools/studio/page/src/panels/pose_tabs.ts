@@ -1,8 +1,8 @@
 import {type Bench, tenth} from '../tools/tool';
 import {type Pose, type Vec3, edited, poseName, posesOf, vectorOf, withHang, withPose, withStand} from '../state/job';
 import {verdictOf} from '../results/verdict';
-import {h, icon, say} from './dom';
-import {type Part, choiceField, numberField, paired} from './fields';
+import {type Kept, h, icon, keeper, newId, say} from './dom';
+import {type Part, choiceField, numberField, paired, shownIn} from './fields';
 import {icons} from './icons';
 
 const ways: readonly (readonly [string, string])[] = [
@@ -16,30 +16,33 @@ export function posePanel(bench: Bench): Part {
   const tabs = h('div', {class: 'tab-list', role: 'tablist', 'aria-label': 'Poses', onkeydown: (event: KeyboardEvent) => {
     const step = event.key === 'ArrowRight' ? 1 : event.key === 'ArrowLeft' ? -1 : 0, all = posesOf(documents.doc.job).length;
     if (!step) return;
-    ui.patch({pose: (ui.value.pose + step + all) % all});
-    tabs.querySelector<HTMLElement>('[aria-selected=true]')?.focus();
+    const pose = (ui.value.pose + step + all) % all;
+    ui.patch({pose});
+    (tabs.children[pose] as HTMLElement | undefined)?.focus();
+    event.preventDefault();
   }});
+  const bodyId = newId(), keepTabs = keeper(tabs, (index) => tab(bench, index, bodyId));
   const current = (): Pose => posesOf(documents.doc.job)[ui.value.pose] ?? {stand: {}};
   const change = (pose: Pose, label: string) =>
     documents.change(withPose({...documents.doc.job, poses: posesOf(documents.doc.job)}, ui.value.pose, pose), label);
   const name = h('input', {class: 'pose-name', maxLength: 200, 'aria-label': 'Name of the pose', onchange: () =>
     change(edited(current(), {name: name.value || undefined}), 'pose name')});
-  const fields = poseFields(bench, current, change);
+  const showName = shownIn(name), fields = poseFields(bench, current, change);
   const remove = h('button', {class: 'quiet', title: 'Take this pose away', onclick: () => {
     const rest = posesOf(documents.doc.job).filter((_, at) => at !== ui.value.pose);
     documents.change(edited(documents.doc.job, {poses: rest}), 'remove a pose');
     ui.patch({pose: 0});
   }}, 'Remove');
-  const body = h('div', {class: 'pose-body', role: 'tabpanel', 'aria-label': 'Pose'},
+  const body = h('div', {class: 'pose-body', role: 'tabpanel', id: bodyId},
                  h('div', {class: 'pose-head'}, name, remove), ...fields.map((field) => field.element));
   const add = adder(bench), element = h('section', {class: 'poses'}, h('div', {class: 'tabs'}, tabs, add), body);
   const update = () => {
     const {job} = documents.doc, poses = posesOf(job), at = Math.min(ui.value.pose, poses.length - 1);
     if (at !== ui.value.pose) ui.patch({pose: at});
-    tabs.replaceChildren(...poses.map((pose, index) => tab(bench, pose, index, index === at)));
+    keepTabs(poses.length);
+    body.setAttribute('aria-labelledby', tabs.children[at]!.id);
     say(add.lastElementChild as HTMLElement, poses.length > 1 ? '' : 'Add a pose');
-    const pose = current();
-    if (document.activeElement !== name) name.value = poseName(pose, at);
+    showName(poseName(current(), at));
     remove.hidden = poses.length < 2;
     body.querySelector('.pose-head')!.toggleAttribute('hidden', poses.length < 2);
     fields.forEach((field) => field.update());
@@ -47,12 +50,20 @@ export function posePanel(bench: Bench): Part {
   return {element, update};
 }
 
-function tab(bench: Bench, pose: Pose, index: number, selected: boolean): HTMLElement {
-  const verdict = verdictOf(bench.results.value, bench.documents.doc, index);
-  return h('button', {
-    role: 'tab', 'aria-selected': selected, tabIndex: selected ? 0 : -1, class: 'tab', 'data-tone': verdict.tone,
-    title: verdict.line, onclick: () => bench.ui.patch({pose: index}),
-  }, icon(icons[verdict.tone === 'none' ? 'wait' : verdict.tone]), h('span', {}, poseName(pose, index)));
+function tab(bench: Bench, index: number, panel: string): Kept {
+  const {documents, results, ui, conductor} = bench, picture = h('span', {class: 'tab-picture'}), name = h('span', {});
+  const element = h('button', {role: 'tab', class: 'tab', id: newId(), 'aria-controls': panel, onclick: () => ui.patch({pose: index})}, picture, name);
+  const update = () => {
+    const poses = posesOf(documents.doc.job), verdict = verdictOf(results.value, documents.asked, index, conductor.answering);
+    const isOpen = index === Math.min(ui.value.pose, poses.length - 1);
+    element.setAttribute('aria-selected', String(isOpen));
+    element.tabIndex = isOpen ? 0 : -1;
+    element.title = verdict.line;
+    if (element.dataset.tone !== verdict.tone) picture.replaceChildren(icon(icons[verdict.tone === 'none' ? 'wait' : verdict.tone]));
+    element.dataset.tone = verdict.tone;
+    say(name, poseName(poses[index]!, index));
+  };
+  return {element, update};
 }
 
 function adder(bench: Bench): HTMLElement {
@@ -67,7 +78,7 @@ function poseFields(bench: Bench, current: () => Pose, change: (pose: Pose, labe
   const {documents, ui} = bench;
   const own = () => current().stand?.up ?? current().hang?.up;
   const kind = choiceField({
-    label: 'It', options: () => [['stand', 'stands'], ['hang', 'hangs']], value: () => (current().hang ? 'hang' : 'stand'),
+    label: 'This pose', options: () => [['stand', 'stands'], ['hang', 'hangs']], value: () => (current().hang ? 'hang' : 'stand'),
     change: (value) => {
       const {name} = current(), up = own(), top = bench.view.figure.outside?.farthest(vectorOf(up)) ?? [0, 0, 0];
       const from_mm = [top.map(tenth) as unknown as Vec3];

@@ -1,12 +1,12 @@
 import type {Bench} from '../tools/tool';
 import {type Vec3, edited, withHandle, withHandles} from '../state/job';
-import {h} from './dom';
+import {type Kept, h, keeper} from './dom';
 import {type Part, numberField, tripleField} from './fields';
 
 /** The handles and locks of the job, with numbers for the handle in hand. */
 export function shapePanel(bench: Bench): Part {
   const {documents, ui} = bench;
-  const list = h('div', {class: 'chips', role: 'group', 'aria-label': 'Handles'});
+  const list = h('div', {class: 'chips', role: 'group', 'aria-label': 'Handles'}), keepChips = keeper(list, (index) => chip(bench, index));
   const handle = () => documents.job.handles?.[ui.value.handle ?? -1];
   const change = (fields: Partial<NonNullable<ReturnType<typeof handle>>>) => {
     const now = documents.doc.job.handles?.[ui.value.handle ?? -1];
@@ -27,7 +27,7 @@ export function shapePanel(bench: Bench): Part {
   const update = () => {
     const handles = documents.job.handles ?? [], count = documents.job.lock?.length ?? 0;
     element.hidden = handles.length === 0 && count === 0;
-    list.replaceChildren(...handles.map((_, index) => chip(bench, index)));
+    keepChips(handles.length);
     body.hidden = handle() === undefined;
     fields.forEach((field) => field.update());
     text.textContent = count ? 'where painted' : 'nothing';
@@ -44,14 +44,15 @@ function movedText({view, results}: Bench): string {
   return `Moved by up to ${view.moved_mm.value.toFixed(1)} mm${short}${rate ? `; ${rate.toFixed(1)} previews a second` : ''}`;
 }
 
-function chip({documents, ui}: Bench, index: number): HTMLElement {
-  const take = h('button', {
-    class: 'chip', 'aria-pressed': ui.value.handle === index, onclick: () => ui.patch({handle: index, tool: 'handle'}),
-  }, `handle ${index + 1}`);
+function chip({documents, ui}: Bench, index: number): Kept {
+  const take = h('button', {class: 'chip', onclick: () => ui.patch({handle: index, tool: 'handle'})}, `handle ${index + 1}`);
   const drop = h('button', {class: 'chip-drop', 'aria-label': `Remove handle ${index + 1}`, title: 'Remove', onclick: () => {
     const rest = (documents.doc.job.handles ?? []).filter((_, at) => at !== index);
     ui.patch({handle: null});
     documents.change(withHandles(documents.doc.job, rest), 'remove a handle');
   }}, '×');
-  return h('span', {class: 'chip-pair'}, take, drop);
+  return {
+    element: h('span', {class: 'chip-pair'}, take, drop),
+    update: () => take.setAttribute('aria-pressed', String(ui.value.handle === index)),
+  };
 }

@@ -1,4 +1,5 @@
 import type {Bench} from '../tools/tool';
+import {isUnanswered} from '../results/results';
 import {type Tone, heldPoses, verdictOf} from '../results/verdict';
 import {h, icon, say} from './dom';
 import type {Part} from './fields';
@@ -14,14 +15,14 @@ export function verdictLine({documents, results, ui, conductor}: Bench): Part {
   const element = h('div', {class: 'verdict'}, picture, h('div', {}, line, detail));
   let shown: Tone | null = null;
   const update = () => {
-    const {doc} = documents, asked = {...doc, job: documents.job}, now = results.value;
-    element.hidden = doc.model === null && now.busy === null;
-    const isComing = conductor.previews.busy; // until then the last preview holds
+    const {asked} = documents, now = results.value;
+    element.hidden = asked.model === null && now.busy === null;
+    const isComing = conductor.answering;
     const verdict = verdictOf(now, asked, ui.value.pose, isComing);
     if (verdict.line === '' && isComing && documents.state.value.wish) return;
-    const held = heldPoses(now, doc);
+    const held = heldPoses(now, asked, isComing);
     const others = held && held.all > 1 ? `; ${held.held} of ${held.all} poses hold` : '';
-    say(line, verdict.line || waiting(now.notice !== null, now.busy?.stage));
+    say(line, verdict.line || waiting(isUnanswered(now, asked), now.busy?.stage));
     say(detail, verdict.line ? verdict.detail + others : '');
     element.dataset.tone = verdict.tone;
     if (shown !== verdict.tone) picture.replaceChildren(icon(icons[pictures[verdict.tone]]));

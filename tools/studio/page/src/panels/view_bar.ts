@@ -2,7 +2,7 @@ import type {Look} from '../state/ui';
 import type {Bench} from '../tools/tool';
 import {figuresOf} from '../results/verdict';
 import type {Side} from '../view/stage';
-import {h} from './dom';
+import {asToolbar, h} from './dom';
 import type {Part} from './fields';
 
 const looks: readonly (readonly [Look, string, string])[] = [
@@ -12,7 +12,7 @@ const sides: readonly (readonly [Side, string])[] = [['corner', 'All'], ['front'
 
 /** How the scene is looked at. */
 export function viewBar(bench: Bench): Part {
-  const {ui, view, documents, results} = bench;
+  const {ui, view, documents, results, conductor} = bench;
   const lookButtons = looks.map(([look, name, key]) => h('button', {
     'data-look': look, 'aria-pressed': false, title: `${name} (${key})`, onclick: () => ui.patch({look}),
   }, name));
@@ -29,6 +29,7 @@ export function viewBar(bench: Bench): Part {
     h('div', {class: 'segments', role: 'group', 'aria-label': 'How it is drawn'}, ...lookButtons), cut,
     h('div', {class: 'segments', role: 'group', 'aria-label': 'Seen from'}, ...sides.map(([side, name]) =>
       h('button', {onclick: () => view.lookFrom(side), title: `See ${name.toLowerCase()}`}, name))), ring, fall);
+  const keepStop = asToolbar(element);
   const update = () => {
     element.hidden = documents.doc.model === null;
     for (const button of lookButtons) button.setAttribute('aria-pressed', String(button.dataset.look === ui.value.look));
@@ -36,7 +37,8 @@ export function viewBar(bench: Bench): Part {
     cut.hidden = ui.value.look !== 'section';
     slider.value = String(ui.value.cutAt);
     ring.setAttribute('aria-pressed', String(ui.value.ring));
-    fall.disabled = !figuresOf(results.value, documents.doc, ui.value.pose)?.figures.weak_edge;
+    fall.disabled = !figuresOf(results.value, documents.asked, ui.value.pose, conductor.answering)?.figures.weak_edge;
+    keepStop();
   };
   return {element, update};
 }

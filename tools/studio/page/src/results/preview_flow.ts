@@ -1,14 +1,13 @@
-import type {DocumentStore} from '../state/document';
-import {type Job, bends} from '../state/job';
+import type {Asked, DocumentStore} from '../state/document';
+import {bends} from '../state/job';
 import type {Client} from '../transport/client';
 import {Newest, type Turn} from '../transport/newest';
-import {goesOn} from './conductor';
+import {goesOn, insist} from './messages';
 import type {Preview} from './report';
-import {type ResultsStore, keyOf} from './results';
+import {type ResultsStore, bodyOf, keyOf} from './results';
 
 interface Wish {
-  readonly model: number;
-  readonly job: Job;
+  readonly asked: Asked;
   readonly number: number;
 }
 
@@ -16,11 +15,13 @@ interface Wish {
 export class PreviewFlow {
   readonly #newest: Newest<Wish>;
   #number = 0;
-  #arrivals: number[] = []; // milliseconds of the previews of this drag
+  #count = 0; // previews of this drag
+  #awaited_ms = 0; // how long they were waited for
 
   constructor(private readonly client: Client, private readonly documents: DocumentStore,
-              private readonly results: ResultsStore, failed: (error: unknown) => void) {
-    this.#newest = new Newest<Wish>((wish, turn) => this.#follow(wish, turn), failed);
+              private readonly results: ResultsStore, private readonly runs: {readonly busy: boolean},
+              failed: (error: unknown, asked: Asked) => void) {
+    this.#newest = new Newest<Wish>((wish, turn) => this.#follow(wish, turn), (error, wish) => failed(error, wish.asked));
   }
 
   /** Whether an answer is on its way. */
@@ -30,17 +31,17 @@ export class PreviewFlow {
 
   /** A hand takes hold: previews are counted from here on. */
   begin(): void {
-    this.#arrivals = [];
+    this.#count = this.#awaited_ms = 0;
     performance.clearMarks('aplomb-wish');
     performance.clearMarks('aplomb-preview-drawn');
   }
 
   ask(): void {
-    const model = this.documents.doc.model, job = this.documents.job;
-    if (!model) return;
-    if (bends(job)) {
+    const {asked} = this.documents;
+    if (!asked.model) return;
+    if (bends(asked.job)) {
       performance.mark('aplomb-wish', {detail: ++this.#number});
-      this.#newest.ask({model: model.id, job, number: this.#number});
+      this.#newest.ask({asked, number: this.#number});
     } else {
       this.#newest.cancel();
       this.results.patch({preview: null});
@@ -48,23 +49,32 @@ export class PreviewFlow {
   }
 
   async #follow(wish: Wish, turn: Turn): Promise<void> {
-    const body = {model: wish.model, job: wish.job, wish: wish.number};
-    const key = keyOf({model: this.documents.doc.model, job: wish.job});
+    const key = keyOf(wish.asked);
     if (this.results.value.preview?.key === key && this.results.value.preview.preview.settled) return;
-    let preview: Preview | null = null;
-    for await (const frame of this.client.stream('/api/preview', body, turn.signal)) {
+    // A run has the solver for itself: who waits for its end asks then.
+    await insist(async () => (await this.#answer(wish, key, turn)) || this.runs.busy, turn.signal);
+  }
+
+  /** \return whether there was an answer. */
+  async #answer(wish: Wish, key: string, turn: Turn): Promise<boolean> {
+    let preview: Preview | null = null, since = performance.now(), isAnswered = false;
+    for await (const frame of this.client.stream('/api/preview', {...bodyOf(wish.asked), wish: wish.number}, turn.signal)) {
       if (frame.kind === 'json' && goesOn(frame.message) && frame.message.type === 'preview')
         preview = frame.message as unknown as Preview;
       if (frame.kind !== 'positions' || !preview) continue;
-      this.results.patch({preview: {key, preview, positions: frame.positions}, ...this.#rate()});
+      const now = performance.now();
+      if (this.documents.state.value.wish) this.#rate(now - since);
+      this.results.patch({preview: {key, preview, positions: frame.positions}});
+      since = now;
+      isAnswered = true;
       turn.served();
     }
+    return isAnswered;
   }
 
-  #rate(): {previewsPerSecond?: number} {
-    const arrivals = this.#arrivals;
-    arrivals.push(performance.now());
-    const first = arrivals[0] as number, last = arrivals.at(-1) as number;
-    return last > first ? {previewsPerSecond: (1000 * (arrivals.length - 1)) / (last - first)} : {};
+  /** Previews a second of waiting for them: a hand that stays where it is asks for none. */
+  #rate(waited_ms: number): void {
+    this.#awaited_ms += waited_ms;
+    this.results.patch({previewsPerSecond: (1000 * ++this.#count) / Math.max(1, this.#awaited_ms)});
   }
 }

@@ -73,11 +73,9 @@ export interface Report {
   readonly hints?: readonly string[];
 }
 
-export interface PreviewPose {
-  readonly name: string;
-  readonly tip_deg?: number;
-  readonly tilt_deg?: number;
-  readonly holds: boolean;
+/** `before`: of the bent solid, uncarved. */
+export interface PreviewPose extends PoseReport {
+  readonly carved_deg: number | null; // with the best void for all poses
 }
 
 export interface Preview {
@@ -86,9 +84,7 @@ export interface Preview {
   readonly mean_mm: number;
   readonly max_mm: number;
   readonly handle_short_mm: number;
-  readonly center_mm: Vec3;
   readonly poses: readonly PreviewPose[];
-  readonly carved_deg: number | null;
 }
 
 export interface Placed {

@@ -1,11 +1,17 @@
-import type {Doc} from '../state/document';
+import type {Asked} from '../state/document';
+import type {Job} from '../state/job';
 import {Signal} from '../state/signal';
 import type {MeshData} from '../transport/frames';
 import type {Judgement, Placed, Preview, Report} from './report';
 
+/** The body of a request. */
+export function bodyOf({model, profile, job}: Asked): {model?: number; profile?: number; job: Job} {
+  return {model: model?.id, profile: profile?.id, job};
+}
+
 /** What a result belongs to: one model with one job, as text to be compared. */
-export function keyOf(doc: Pick<Doc, 'model' | 'job'>): string {
-  return JSON.stringify([doc.model?.id, doc.job]);
+export function keyOf(asked: Asked): string {
+  return JSON.stringify(bodyOf(asked));
 }
 
 export interface PlacedResult {
@@ -30,6 +36,7 @@ export interface StandResult extends CheckResult {
   readonly outside: MeshData | null;
   readonly voids: readonly MeshData[];
   readonly dense: MeshData | null;
+  readonly isWritten: boolean; // the meshes may be taken
   readonly code: number | null; // the program's exit code, once it has ended
 }
 
@@ -60,32 +67,44 @@ export interface Results {
   readonly judgement: JudgementResult | null;
   readonly busy: Busy | null;
   readonly notice: Notice | null;
+  readonly failed: string | null; // the key of what was asked for in vain
   readonly previewsPerSecond: number | null; // of the last drag
 }
 
 export const nothing: Results = {
-  placed: null, check: null, preview: null, stand: null, judgement: null, busy: null, notice: null,
+  placed: null, check: null, preview: null, stand: null, judgement: null, busy: null, notice: null, failed: null,
   previewsPerSecond: null,
 };
 
 export type ResultsStore = Signal<Results>;
 
 /** The result of the last run, if it is of this job. */
-export function freshStand(results: Results, doc: Doc): StandResult | null {
-  return results.stand && results.stand.key === keyOf(doc) ? results.stand : null;
+export function freshStand(results: Results, asked: Asked): StandResult | null {
+  return results.stand && results.stand.key === keyOf(asked) ? results.stand : null;
 }
 
-export function freshCheck(results: Results, doc: Doc): CheckResult | null {
-  return results.check && results.check.key === keyOf(doc) ? results.check : null;
+/** Whether what was made of this job is of another shape than the model, of which the job speaks. */
+export function isBent(results: Results, asked: Asked): boolean {
+  const stand = freshStand(results, asked);
+  return stand?.outside != null && stand.report.deformation != null;
 }
 
-export function freshPreview(results: Results, doc: Pick<Doc, 'model' | 'job'>): PreviewResult | null {
-  return results.preview && results.preview.key === keyOf(doc) ? results.preview : null;
+export function freshCheck(results: Results, asked: Asked): CheckResult | null {
+  return results.check && results.check.key === keyOf(asked) ? results.check : null;
+}
+
+export function freshPreview(results: Results, asked: Asked): PreviewResult | null {
+  return results.preview && results.preview.key === keyOf(asked) ? results.preview : null;
+}
+
+/** Whether there will be no verdict of this job unless it is asked for again. */
+export function isUnanswered(results: Results, asked: Asked): boolean {
+  return results.failed === keyOf(asked);
 }
 
 /** The judgement to be shown: of the run that was asked for, or of the model as it came. */
-export function shownJudgement(results: Results, doc: Doc): JudgementResult | null {
-  const key = keyOf(doc), stand = freshStand(results, doc), asked = results.judgement?.key === key ? results.judgement : null;
+export function shownJudgement(results: Results, of: Asked): JudgementResult | null {
+  const key = keyOf(of), stand = freshStand(results, of), asked = results.judgement?.key === key ? results.judgement : null;
   if (!stand?.outside) return asked;
   const judged = stand.report.judgement;
   return judged ? {key, of: 'result', judgement: judged} : asked?.of === 'result' ? asked : null;

@@ -1,7 +1,7 @@
-import type {Doc} from '../state/document';
-import {bends, posesOf} from '../state/job';
+import type {Asked} from '../state/document';
+import {bends} from '../state/job';
 import type {Figures, PoseReport, PreviewPose} from './report';
-import {type Results, freshCheck, freshPreview, freshStand} from './results';
+import {type PreviewResult, type Results, freshCheck, freshPreview, freshStand} from './results';
 import {degrees, wayOf} from './words';
 
 export type Tone = 'falls' | 'short' | 'stands' | 'none';
@@ -36,35 +36,39 @@ function toned(tip: number, asked: number, way: string, weakest: string): Verdic
 
 function hangingVerdict(pose: PoseReport, figures: Figures): Verdict {
   const tilt = figures.tilt_deg ?? 180, asked = pose.required_tilt_deg ?? 0;
-  return hung(tilt, asked);
-}
-
-function hung(tilt: number, asked: number): Verdict {
   const detail = `level to ${degrees(asked)} asked`;
   const level = Number(tilt.toFixed(1)) <= asked;
   return {tone: level ? 'stands' : 'falls', line: `Hangs ${level ? 'level' : 'askew'}: ${degrees(tilt)} degrees`, detail};
 }
 
-/** The figures of a pose that are true now: of the carved solid where there is one of this job. */
-export function figuresOf(results: Results, doc: Doc, index: number): {pose: PoseReport; figures: Figures} | null {
-  const report = (freshStand(results, doc) ?? freshCheck(results, doc))?.report;
-  const pose = report?.poses[index];
+/** The preview that is true of what is asked; while a newer one is coming, the last that came. */
+export function shownPreview(results: Results, asked: Asked, isComing: boolean): PreviewResult | null {
+  if (!bends(asked.job) || freshStand(results, asked)) return null;
+  return isComing ? results.preview : freshPreview(results, asked);
+}
+
+/** The poses as they are now: of what was made, of the solid as handles bend it, or of the solid as it came. */
+function posesNow(results: Results, asked: Asked, isComing: boolean): readonly PoseReport[] | null {
+  const stand = freshStand(results, asked);
+  if (stand) return stand.report.poses;
+  if (bends(asked.job)) return shownPreview(results, asked, isComing)?.preview.poses ?? null;
+  return freshCheck(results, asked)?.report.poses ?? null;
+}
+
+/** A pose and the figures of it that are true now. */
+export function figuresOf(results: Results, asked: Asked, index: number, isComing = false): {pose: PoseReport; figures: Figures} | null {
+  const pose = posesNow(results, asked, isComing)?.[index];
   return pose ? {pose, figures: pose.after ?? pose.before} : null;
 }
 
-/** The verdict of one pose of the document as it is now; while a preview is coming, of the last that came. */
-export function verdictOf(results: Results, doc: Doc, index: number, isComing = false): Verdict {
-  const stand = freshStand(results, doc);
-  const pose = stand?.report.poses[index];
-  if (stand && pose && stand.code && !stand.outside) return inVain(poseVerdict(pose, pose.after ?? pose.before), pose);
-  if (stand && pose) return ofRun(poseVerdict(pose, pose.after ?? pose.before), pose);
-  const preview = !bends(doc.job) ? null : isComing ? results.preview : freshPreview(results, doc);
-  const bent = preview?.preview.poses[index];
-  if (preview && bent) return bentVerdict(bent, results, doc, index, preview.preview.carved_deg);
-  const check = freshCheck(results, doc)?.report.poses[index];
-  if (!check || bends(doc.job)) return unknown;
-  const verdict = poseVerdict(check, check.before);
-  return {...verdict, detail: `${verdict.detail}; as a solid`};
+/** The verdict of one pose of what is asked. */
+export function verdictOf(results: Results, asked: Asked, index: number, isComing = false): Verdict {
+  const found = figuresOf(results, asked, index, isComing), stand = freshStand(results, asked);
+  if (!found) return unknown;
+  const verdict = poseVerdict(found.pose, found.figures);
+  if (stand) return stand.code && !stand.outside ? inVain(verdict, found.pose) : ofRun(verdict, found.pose);
+  if (bends(asked.job)) return bentVerdict(verdict, found.pose as PreviewPose);
+  return {...verdict, detail: `${verdict.detail}; ${asked.profile ? 'as it would be sliced' : 'as a solid'}`};
 }
 
 /** Nothing was written: the figures are of the best that there would be. */
@@ -80,18 +84,13 @@ function ofRun(verdict: Verdict, pose: PoseReport): Verdict {
   return {...verdict, detail: verdict.detail + was};
 }
 
-function bentVerdict(bent: PreviewPose, results: Results, doc: Doc, index: number, carved: number | null): Verdict {
-  const asked = posesOf(doc.job)[index];
-  if (bent.tilt_deg !== undefined) return hung(bent.tilt_deg, asked?.hang?.tilt_deg ?? 2);
-  const known = results.check?.report.poses[index];
-  const way = known?.before.weak_edge ? wayOf(known.before.weak_edge.heading, known.up) : '';
-  const verdict = toned(bent.tip_deg ?? -90, asked?.stand?.tip_deg ?? 10, way, '');
-  const reach = carved === null ? '' : `; carved it could reach ${degrees(carved)}`;
+function bentVerdict(verdict: Verdict, pose: PreviewPose): Verdict {
+  const reach = pose.carved_deg === null ? '' : `; carved it could reach ${degrees(pose.carved_deg)}`;
   return {...verdict, detail: `as bent by hand, solid: ${verdict.detail}${reach}`};
 }
 
-/** Whether all poses of the last run hold, and how many there are. */
-export function heldPoses(results: Results, doc: Doc): {held: number; all: number} | null {
-  const report = (freshStand(results, doc) ?? freshCheck(results, doc))?.report;
-  return report ? {held: report.poses.filter((pose) => pose.holds).length, all: report.poses.length} : null;
+/** How many poses hold as they are now, and how many there are. */
+export function heldPoses(results: Results, asked: Asked, isComing = false): {held: number; all: number} | null {
+  const poses = posesNow(results, asked, isComing);
+  return poses && {held: poses.filter((pose) => pose.holds).length, all: poses.length};
 }

@@ -1,17 +1,23 @@
 import {type History, amended, done, redone, started, undone} from './history';
-import {type Job, emptyJob, placeKey} from './job';
+import {type Job, edited, emptyJob, placeKey} from './job';
 import {Signal} from './signal';
 
-export interface Model {
+/** A file that the server has been given. */
+export interface Sent {
   readonly id: number;
   readonly name: string;
   readonly bytes: number;
 }
 
-/** What is edited. Its points are in the coordinates of the placement `frame`. */
-export interface Doc {
-  readonly model: Model | null;
+/** What the server is asked about. */
+export interface Asked {
+  readonly model: Sent | null;
+  readonly profile: Sent | null; // of the slicer
   readonly job: Job;
+}
+
+/** What is edited. Its points are in the coordinates of the placement `frame`. */
+export interface Doc extends Asked {
   readonly frame: string;
 }
 
@@ -20,10 +26,12 @@ export interface DocumentState {
   readonly wish: Job | null; // the job while a hand drags something
 }
 
+const opened = 'open';
+
 /** The one document, its undo and redo, and the wish of a hand that has not come to rest. */
 export class DocumentStore {
   readonly state = new Signal<DocumentState>({
-    history: started<Doc>({model: null, job: emptyJob, frame: placeKey(emptyJob)}), wish: null,
+    history: started<Doc>({model: null, profile: null, job: emptyJob, frame: placeKey(emptyJob)}), wish: null,
   });
 
   get doc(): Doc {
@@ -35,8 +43,19 @@ export class DocumentStore {
     return this.state.value.wish ?? this.doc.job;
   }
 
-  open(model: Model, job: Job = emptyJob): void {
-    this.#set(done(this.state.value.history, {model, job, frame: placeKey(job)}, 'open'));
+  /** As it is shown: with the wish where there is one. */
+  get asked(): Asked {
+    return {...this.doc, job: this.job};
+  }
+
+  open(model: Sent, job: Job = emptyJob, profile: Sent | null = null): void {
+    this.#set(done(this.state.value.history, {model, profile, job, frame: placeKey(job)}, opened));
+  }
+
+  /** Ballast is infill, of which only a profile tells. */
+  slice(profile: Sent | null): void {
+    const job = profile ? this.doc.job : edited(this.doc.job, {ballast: undefined});
+    this.#set(done(this.state.value.history, {...this.doc, profile, job}, 'profile'));
   }
 
   change(job: Job, label: string): void {
@@ -45,6 +64,11 @@ export class DocumentStore {
       return;
     }
     this.#set(done(this.state.value.history, {...this.doc, job}, label));
+  }
+
+  /** Takes a job as a whole: its points are in the coordinates of its own placement. */
+  adopt(job: Job): void {
+    this.#set(done(this.state.value.history, {...this.doc, job, frame: placeKey(job)}, 'open a job'));
   }
 
   /** Shows a job without a step of its own, until change() or drop(). */
@@ -76,6 +100,12 @@ export class DocumentStore {
 
   get canRedo(): boolean {
     return this.state.value.history.future.length > 0;
+  }
+
+  /** Whether anything would be lost with the page: more was done than opened. */
+  get hasWork(): boolean {
+    const {past, present} = this.state.value.history;
+    return [...past, present].some(({value, label}) => value.model !== null && label !== opened);
   }
 
   #set(history: History<Doc>): void {

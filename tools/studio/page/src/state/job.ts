@@ -63,6 +63,7 @@ export interface Job {
   readonly material?: string;
   readonly wall_mm?: number;
   readonly robust?: boolean;
+  readonly ballast?: 'never' | 'auto' | 'only';
   readonly best_effort?: boolean;
   readonly [other: string]: unknown;
 }

@@ -1,18 +1,38 @@
 import {type Camera, Group, type Object3D, Plane, type Ray, Vector3} from 'three';
 
 import {readInks} from '../view/inks';
-import {cleared, line} from '../view/lines';
+import {circleOf, cleared, facing, haloed} from '../view/lines';
 import type {Stage} from '../view/stage';
 
 export type Part = 'shift' | 'x' | 'y' | 'z' | 'turn-x' | 'turn-y' | 'turn-z' | 'scale';
 
 const axes = {x: new Vector3(1, 0, 0), y: new Vector3(0, 1, 0), z: new Vector3(0, 0, 1)};
 const near_px = 9;
-const gap = 24, tip = 84, arc = 58, knob = 82, ring = 9, circles = 130; // pixels from the middle, which stays free to be seen
+const gap = 24, tip = 84, arc = 58, knob = 82, ring = 14, circles = 130; // pixels from the middle
+const least = {arrow: 0.3, arc: 0.15}; // of its size: where less of it is seen, it is left out
 
-/** The thing to grasp a place by: arrows shift it, arcs turn it, the square scales it. Its size on the screen is always the same. */
+interface Seen {
+  readonly x: number;
+  readonly y: number;
+}
+
+/** A line of a part in pixels: about the gizmo's middle, or in the plane of the screen about a point of it. */
+interface Stroke {
+  readonly points: readonly number[];
+  readonly flatAt?: Vector3;
+}
+
+const origin = new Vector3();
+
+/**
+ * The thing to grasp a place by: arrows and the ring shift it, arcs turn it, the square scales it. Its size on the screen is
+ * always the same, and its middle is open. What is seen end on would cover the middle and could not be dragged: it is left out.
+ */
 export class Gizmo {
   readonly group = new Group();
+  readonly #drawn = new Map<Part, Group>();
+  #square = Math.PI / 4; // where the square is, as an angle on the screen
+  #theme: string | undefined; // that it is painted in
   #hot: Part | null = null;
   #parts: readonly Part[] = [];
 
@@ -35,15 +55,20 @@ export class Gizmo {
 
   repaint(): void {
     cleared(this.group);
+    this.#drawn.clear();
+    this.#theme = document.documentElement.dataset.theme;
     const inks = readInks();
     for (const part of this.#parts) {
-      const hot = part === this.#hot, color = hot ? inks.accent : inks.ink;
-      for (const points of strokes(part, this.wide)) {
-        this.group.add(line(points, {color: inks.paper, pixels: hot ? 8 : 6, seenThrough: true, opacity: 0.8}));
-        const drawn = line(points, {color, pixels: hot ? 4 : 2.5, seenThrough: true});
-        drawn.renderOrder = 22;
-        this.group.add(drawn);
-      }
+      const hot = part === this.#hot, color = hot ? inks.accent : inks.ink, pixels = (part === 'shift' ? 2 : 2.5) + (hot ? 1.5 : 0);
+      const group = new Group();
+      for (const {points, flatAt} of this.#strokes(part))
+        haloed(points, {color, pixels, seenThrough: true}, inks.paper).forEach((drawn, order) => {
+          drawn.renderOrder = 21 + order;
+          group.add(flatAt ? facing(drawn) : drawn);
+          if (flatAt) drawn.position.copy(flatAt);
+        });
+      this.group.add(group);
+      this.#drawn.set(part, group);
     }
     this.stage.invalidate();
   }
@@ -58,23 +83,35 @@ export class Gizmo {
   /** The part that is drawn under a point of the window. */
   under(x: number, y: number): Part | null {
     if (!this.group.visible) return null;
-    const box = this.stage.canvas.getBoundingClientRect(), found: {part: Part | null; far: number} = {part: null, far: near_px};
-    const middle = this.#onScreen([0, 0, 0])[0] ?? {x: -1000, y: -1000};
-    for (const part of this.#parts)
-      for (const points of strokes(part, this.wide)) {
-        const seen = this.#onScreen(points);
-        if (part === 'shift' && Math.hypot(x - box.left - middle.x, y - box.top - middle.y) < ring) return part;
+    this.#fit();
+    const box = this.stage.canvas.getBoundingClientRect(), at = {x: x - box.left, y: y - box.top};
+    const found: {part: Part | null; far: number} = {part: null, far: near_px}, middle = this.#onScreen([0, 0, 0])[0];
+    if (middle && this.#drawn.has('shift') && Math.hypot(at.x - middle.x, at.y - middle.y) < ring) return 'shift';
+    for (const [part, group] of this.#drawn)
+      for (const stroke of group.visible ? this.#strokes(part) : []) {
+        const seen = this.#seen(stroke);
         for (let i = 0; i + 1 < seen.length; ++i) {
-          const far = distance(x - box.left, y - box.top, seen[i]!, seen[i + 1]!);
+          const far = distance(at.x, at.y, seen[i]!, seen[i + 1]!);
           if (far < found.far) Object.assign(found, {part, far});
         }
       }
     return found.part;
   }
 
-  #onScreen(points: readonly number[]): {x: number; y: number}[] {
-    this.group.updateWorldMatrix(true, false);
-    const seen: {x: number; y: number}[] = [], at = new Vector3();
+  /** The lines that draw a part, and by which it is found, in pixels from the middle. */
+  #strokes(part: Part): Stroke[] {
+    return part === 'shift' ? [{points: circleOf(ring), flatAt: origin}] : part === 'scale' ? square(this.#square) : strokes(part, this.wide);
+  }
+
+  #seen({points, flatAt}: Stroke): Seen[] {
+    const about = flatAt && this.#onScreen(flatAt.toArray())[0];
+    if (flatAt && !about) return [];
+    return about ? Array.from({length: points.length / 3}, (_, n) => ({x: about.x + points[3 * n]!, y: about.y - points[3 * n + 1]!}))
+                 : this.#onScreen(points);
+  }
+
+  #onScreen(points: readonly number[]): Seen[] {
+    const seen: Seen[] = [], at = new Vector3();
     for (let i = 0; i < points.length; i += 3) {
       const place = this.stage.onScreen(at.fromArray(points, i).applyMatrix4(this.group.matrixWorld));
       if (place) seen.push(place);
@@ -84,8 +121,36 @@ export class Gizmo {
 
   #resize(): void {
     if (!this.group.visible) return;
+    if (this.#theme !== document.documentElement.dataset.theme) this.repaint();
+    this.#fit();
+    if (this.#drawn.has('scale')) this.#placeSquare();
+    const from = this.stage.camera.getWorldPosition(new Vector3());
+    const sight = this.group.worldToLocal(from).normalize(); // in its own axes
+    for (const [part, drawn] of this.#drawn) {
+      const axis = axisOf(part), along = axis ? Math.abs(axis.dot(sight)) : 0;
+      drawn.visible = !axis || (part.startsWith('turn') ? along > least.arc : Math.sqrt(1 - along * along) > least.arrow);
+    }
+  }
+
+  #fit(): void {
     this.group.scale.setScalar(this.stage.mmPerPixel(this.group.getWorldPosition(new Vector3())));
-    this.group.updateMatrixWorld();
+    this.group.updateWorldMatrix(true, true);
+  }
+
+  /** Moves the square out of the way of arrows and arcs; as seldom as can be, lest it wander while one looks around. */
+  #placeSquare(): void {
+    const middle = this.#onScreen([0, 0, 0])[0];
+    if (!middle) return;
+    const taken = Object.values(axes).flatMap((axis) => [axis.clone().multiplyScalar(tip), middleOfArc(axis)])
+      .flatMap((point) => this.#onScreen(point.toArray())).filter((seen) => Math.hypot(seen.x - middle.x, seen.y - middle.y) > gap)
+      .map((seen) => Math.atan2(middle.y - seen.y, seen.x - middle.x));
+    const free = (angle: number) => Math.min(...taken.map((other) => Math.abs(Math.atan2(Math.sin(angle - other), Math.cos(angle - other)))));
+    if (free(this.#square) > 0.45) return;
+    const angles = Array.from({length: 24}, (_, n) => (Math.PI * n) / 12);
+    const best = angles.reduce((most, angle) => (free(angle) > free(most) ? angle : most));
+    if (free(best) < free(this.#square) + 0.1) return;
+    this.#square = best;
+    this.repaint();
   }
 }
 
@@ -115,41 +180,41 @@ export function facingCamera(ray: Ray, at: Vector3, camera: Camera, parent: Obje
   return ray.intersectPlane(new Plane().setFromNormalAndCoplanarPoint(facing, at), new Vector3());
 }
 
-/** The lines that draw a part, and by which it is found, in pixels from the middle. */
-function strokes(part: Part, wide: boolean): number[][] {
-  const axis = axisOf(part);
-  if (part === 'shift') return [circle(ring)];
-  if (part === 'scale') {
-    const at = (r: number) => [r * 0.707, 0, r * 0.707], [x, y, z] = at(knob) as [number, number, number], h = 5;
-    return [[...at(arc + 8), ...at(knob - 7)], [x - h, y, z - h, x + h, y, z - h, x + h, y, z + h, x - h, y, z + h, x - h, y, z - h]];
-  }
-  const a = axis as Vector3, u = new Vector3(a.z, a.x, a.y), v = a.clone().cross(u);
+/** The square on its stem. */
+function square(angle: number): Stroke[] {
+  const at = (r: number) => [r * Math.cos(angle), r * Math.sin(angle), 0], [x, y] = at(knob) as [number, number], h = 5;
+  const corners = [x - h, y - h, 0, x + h, y - h, 0, x + h, y + h, 0, x - h, y + h, 0, x - h, y - h, 0];
+  return [[...at(arc), ...at(knob - 7)], corners].map((points) => ({points, flatAt: origin}));
+}
+
+function middleOfArc(axis: Vector3): Vector3 {
+  return new Vector3(1, 1, 1).sub(axis).setLength(arc);
+}
+
+/** An arrow, whose head is seen from all sides, or an arc. */
+function strokes(part: Part, wide: boolean): Stroke[] {
+  const a = axisOf(part) as Vector3, u = new Vector3(a.z, a.x, a.y), v = a.clone().cross(u);
   if (part.startsWith('turn'))
-    return [Array.from({length: wide ? 65 : 17}, (_, n) => {
+    return [{points: Array.from({length: wide ? 65 : 17}, (_, n) => {
       const angle = wide ? (Math.PI * n) / 32 : 0.18 + ((Math.PI / 2 - 0.36) * n) / 16, r = wide ? circles : arc;
       return u.clone().multiplyScalar(r * Math.cos(angle)).addScaledVector(v, r * Math.sin(angle)).toArray();
-    }).flat()];
-  const point = (along: number, side: number) => a.clone().multiplyScalar(along).addScaledVector(u, side).toArray();
-  const shaft = [...point(gap, 0), ...point(tip, 0)], head = [...point(tip - 9, 5), ...point(tip, 0), ...point(tip - 9, -5)];
-  return [shaft, head, ...letter(part as 'x' | 'y' | 'z', point(tip + 13, 0))];
+    }).flat()}];
+  const point = (along: number, side = 0, to = u) => a.clone().multiplyScalar(along).addScaledVector(to, side);
+  const through = (...points: Vector3[]) => ({points: points.flatMap((one) => one.toArray())});
+  const head = (to: Vector3) => through(point(tip - 9, 5, to), point(tip), point(tip - 9, -5, to));
+  return [through(point(gap), point(tip)), head(u), head(v), ...letter(part as 'x' | 'y' | 'z', point(tip + 13))];
 }
 
 const letters = {x: [[-3, -4, 3, 4], [-3, 4, 3, -4]], y: [[-3, 4, 0, 0, 3, 4], [0, 0, 0, -4]], z: [[-3, 4, 3, 4, -3, -4, 3, -4]]};
 
-/** The axis' letter, so that axes are told apart without colour; upright as seen from the front. */
-function letter(name: 'x' | 'y' | 'z', at: number[]): number[][] {
-  return letters[name].map((points) => points.flatMap((value, i) =>
-    (i % 2 ? [] : [at[0]! + value, at[1]!, at[2]! + (points[i + 1] as number)])));
+/** The axis' letter, so that axes are told apart without colour. */
+function letter(name: 'x' | 'y' | 'z', flatAt: Vector3): Stroke[] {
+  return letters[name].map((drawn) => ({
+    points: drawn.flatMap((value, i) => (i % 2 ? [] : [value, drawn[i + 1]!, 0])), flatAt,
+  }));
 }
 
-function circle(radius: number): number[] {
-  return [[1, 0], [0, 1]].flatMap(([flat]) => Array.from({length: 25}, (_, n) => {
-    const angle = (2 * Math.PI * n) / 24, c = radius * Math.cos(angle), s = radius * Math.sin(angle);
-    return flat ? [c, s, 0] : [c, 0, s];
-  }).flat());
-}
-
-function distance(x: number, y: number, a: {x: number; y: number}, b: {x: number; y: number}): number {
+function distance(x: number, y: number, a: Seen, b: Seen): number {
   const dx = b.x - a.x, dy = b.y - a.y, length = dx * dx + dy * dy || 1;
   const t = Math.max(0, Math.min(1, ((x - a.x) * dx + (y - a.y) * dy) / length));
   return Math.hypot(x - a.x - t * dx, y - a.y - t * dy);

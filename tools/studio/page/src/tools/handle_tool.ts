@@ -1,8 +1,9 @@
 import {MathUtils, Matrix4, type Ray, Vector3} from 'three';
 
-import {type Handle, type Job, type Vec3, edited, mostBalls, withHandle, withHandles} from '../state/job';
+import {type Handle, type Job, type Vec3, bends, edited, mostBalls, withHandle, withHandles} from '../state/job';
 import {degreesOf, rotationOf} from '../state/placement';
 import {Gizmo, type Part, alongAxis, angleAbout, axisOf, facingCamera} from './gizmo';
+import {handleAt} from './handle_at';
 import {type Bench, type Tool, brushOf, tenth} from './tool';
 
 const parts: readonly Part[] = ['shift', 'x', 'y', 'z', 'turn-x', 'turn-y', 'turn-z', 'scale'];
@@ -64,22 +65,30 @@ export class HandleTool implements Tool {
   up(x: number, y: number, event: PointerEvent): void {
     const grip = this.#grip, from = this.#pressed;
     this.#grip = this.#pressed = null;
-    if (grip) this.bench.documents.change(this.#pulled(grip, x, y, event.shiftKey), 'move a handle');
+    if (grip) this.#rest(this.#pulled(grip, x, y, event.shiftKey));
     else if (from && Math.hypot(x - from[0], y - from[1]) < 5) this.#press(x, y);
   }
 
   cancel(): boolean {
+    this.#pressed = null;
     if (!this.#grip) return false;
     this.#grip = null;
     this.bench.documents.drop();
     return true;
   }
 
+  /** The full answer follows the first drag, unless it was told not to. */
+  #rest(job: Job): void {
+    const {documents, ui} = this.bench;
+    documents.change(job, 'move a handle');
+    if (ui.value.atOnce === null && bends(job)) ui.patch({atOnce: true});
+  }
+
   /** Takes the handle that is there, else makes one. */
   #press(x: number, y: number): void {
     const hit = this.bench.view.picker.at(x, y), {job} = this.bench.documents.doc, handles = job.handles ?? [];
     if (!hit || handles.length >= mostBalls) return;
-    const there = handles.findIndex((one) => inBall(hit.placed, one));
+    const there = handleAt(handles, hit);
     if (there >= 0) return this.bench.ui.patch({handle: there});
     const handle: Handle = {at_mm: hit.placed.map(tenth) as unknown as Vec3, radius_mm: brushOf(this.bench)};
     this.bench.documents.change(withHandles(job, [...handles, handle]), 'add a handle');
@@ -134,9 +143,4 @@ export class HandleTool implements Tool {
     const shown = ui.value.tool === 'handle' && handle;
     this.#gizmo.show(shown ? new Vector3(...(handle.to_mm ?? handle.at_mm)) : null, parts);
   }
-}
-
-function inBall(at: Vec3, handle: Handle): boolean {
-  const middle = handle.to_mm ?? handle.at_mm;
-  return Math.hypot(at[0] - middle[0], at[1] - middle[1], at[2] - middle[2]) <= (handle.radius_mm ?? 0) + 1;
 }

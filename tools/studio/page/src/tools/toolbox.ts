@@ -53,6 +53,7 @@ export class Toolbox {
       if (!this.tool.down?.(event.clientX, event.clientY, event)) return;
       event.stopPropagation();
       event.preventDefault();
+      (document.activeElement as HTMLElement | null)?.blur(); // as any press would: the keys are the tool's from here on
       this.#pressed = event.pointerId;
       canvas.setPointerCapture(event.pointerId);
     }, {capture: true});
@@ -60,11 +61,12 @@ export class Toolbox {
       if (this.#pressed === event.pointerId) this.tool.drag?.(event.clientX, event.clientY, event);
       else if (this.#pressed === null && event.buttons === 0) this.tool.hover?.(event.clientX, event.clientY);
     });
-    for (const name of ['pointerup', 'pointercancel'] as const)
-      canvas.addEventListener(name, (event) => {
-        if (this.#pressed !== event.pointerId) return;
-        this.#pressed = null;
-        this.tool.up?.(event.clientX, event.clientY, event);
-      });
+    const released = (event: PointerEvent, done: () => void) => {
+      if (this.#pressed !== event.pointerId) return;
+      this.#pressed = null;
+      done();
+    };
+    canvas.addEventListener('pointerup', (event) => released(event, () => this.tool.up?.(event.clientX, event.clientY, event)));
+    canvas.addEventListener('pointercancel', (event) => released(event, () => this.tool.cancel?.())); // it is nowhere
   }
 }

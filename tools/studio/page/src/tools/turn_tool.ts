@@ -1,16 +1,17 @@
 import {MathUtils, Quaternion, type Ray, Vector3} from 'three';
 
-import {posesOf, withHang, withPlace, withStand} from '../state/job';
+import {type Direction, posesOf, withHang, withPlace, withStand} from '../state/job';
 import {turnUpright, turnedFurther} from '../state/placement';
 import {Gizmo, type Part, angleAbout, axisOf} from './gizmo';
 import type {Bench, Tool} from './tool';
 
-const parts: readonly Part[] = ['turn-x', 'turn-y', 'turn-z'];
+const parts: readonly Part[] = ['turn-x', 'turn-y', 'turn-z'], ofUp: readonly Part[] = ['turn-x', 'turn-y'];
 
 /** Turns the model on its plate by three arcs. */
 export class TurnTool implements Tool {
   readonly hint = 'Drag an arc to turn the model. Shift: by 15°.';
   readonly #gizmo: Gizmo;
+  #shown = parts;
   #grip: {part: Part; ray: Ray; middle: Vector3} | null = null;
 
   constructor(private readonly bench: Bench) {
@@ -20,14 +21,21 @@ export class TurnTool implements Tool {
 
   begin(): void {
     const box = this.bench.view.figure.box();
-    this.#gizmo.show(box.isEmpty() ? null : box.getCenter(new Vector3()), parts);
+    this.#shown = this.#parts;
+    this.#gizmo.show(box.isEmpty() ? null : box.getCenter(new Vector3()), this.#shown);
   }
 
-  /** Keeps to the middle of a figure that was placed anew. */
+  /** A way up of a pose's own is the same however it is turned about the vertical. */
+  get #parts(): readonly Part[] {
+    return ownUp(this.bench) === undefined ? parts : ofUp;
+  }
+
+  /** Keeps to the middle of a figure that was placed anew, and to the pose. */
   #follow(): void {
     const box = this.bench.view.figure.box();
     if (this.bench.ui.value.tool !== 'turn' || this.#grip || box.isEmpty()) return;
-    if (box.getCenter(new Vector3()).distanceTo(this.#gizmo.group.position) > 1e-6) this.begin();
+    const isThere = box.getCenter(new Vector3()).distanceTo(this.#gizmo.group.position) <= 1e-6;
+    if (!isThere || this.#shown !== this.#parts) this.begin();
   }
 
   end(): void {
@@ -87,12 +95,16 @@ export class TurnTool implements Tool {
   /** A pose with a way up of its own gets another one; else the placement changes. */
   #change(turn: Quaternion): void {
     const {documents, ui} = this.bench, {job} = documents.doc, index = ui.value.pose, pose = posesOf(job)[index];
-    const own = pose?.stand?.up ?? pose?.hang?.up;
-    if (own === undefined)
+    if (ownUp(this.bench) === undefined)
       return documents.change(withPlace(job, {rotate_deg: turnedFurther(job, turn)}), 'turn');
     const upright = turnUpright(new Vector3(0, 0, 1).toArray());
     const shown = turn.clone().multiply(this.bench.view.figure.pose.quaternion).multiply(upright);
     const up = new Vector3(0, 0, 1).applyQuaternion(shown.invert()).toArray();
     documents.change(pose?.stand ? withStand(job, index, {up}) : withHang(job, index, {up}), 'turn');
   }
+}
+
+function ownUp({documents, ui}: Bench): Direction | undefined {
+  const pose = posesOf(documents.doc.job)[ui.value.pose];
+  return pose?.stand?.up ?? pose?.hang?.up;
 }

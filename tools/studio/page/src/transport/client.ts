@@ -12,6 +12,15 @@ const wrongToken = 'This address has no right to the studio: its token is missin
   'Open the address that `aplomb studio` printed.';
 const cutOff = 'The answer was cut off.';
 
+const ticket = /^once-/;
+
+/** The token that an address has in its fragment; a ticket, which the browser was opened with, is changed for one. */
+export async function tokenOf(fragment: string, fetcher: typeof fetch = (...all) => fetch(...all)): Promise<string> {
+  if (!ticket.test(fragment)) return fragment;
+  const asking = new Client('', fetcher);
+  return (await asking.json<{token: string}>('/api/token', {name: fragment.replace(ticket, '')})).token;
+}
+
 /** Requests with the token of the address. The token stays in memory; it is in no request's address. */
 export class Client {
   constructor(private readonly token: string, private readonly fetcher: typeof fetch = (...all) => fetch(...all)) {}
@@ -21,8 +30,8 @@ export class Client {
     return (response.status === 204 ? undefined : await response.json()) as T;
   }
 
-  async upload<T>(name: string, bytes: Blob): Promise<T> {
-    return (await this.#ask(`/api/model?name=${encodeURIComponent(name)}`, bytes)).json() as Promise<T>;
+  async upload<T>(kind: 'model' | 'profile', name: string, bytes: Blob, signal: AbortSignal): Promise<T> {
+    return (await this.#ask(`/api/${kind}?name=${encodeURIComponent(name)}`, bytes, signal)).json() as Promise<T>;
   }
 
   /** A file of the last run, and the name that the server gives it. */

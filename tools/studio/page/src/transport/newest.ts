@@ -16,7 +16,7 @@ export class Newest<T> {
   #running: {abort: AbortController; served: boolean} | null = null;
 
   constructor(private readonly work: (value: T, turn: Turn) => Promise<void>,
-              private readonly failed: (error: unknown) => void) {}
+              private readonly failed: (error: unknown, value: T) => void) {}
 
   get busy(): boolean {
     return this.#running !== null;
@@ -47,7 +47,7 @@ export class Newest<T> {
       try {
         await this.work(value, {signal: running.abort.signal, served});
       } catch (error) {
-        if (!isAbort(error)) this.failed(error);
+        if (!isAbort(error)) this.failed(error, value);
       }
       this.#running = null;
     }

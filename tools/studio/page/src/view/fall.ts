@@ -25,6 +25,20 @@ export function fallOver(surface: Surface, pose: Group, edge: Vector3, heading: 
   return {edge, axis, landing};
 }
 
+const rise_ms = 1400, drop_ms = 1300, rest_ms = 900;
+
+/**
+ * The turn `since` ms after the beginning, rad; null at the end. It is tilted by `first`, which the plate would have to be before
+ * it falls, then drops. Where motion is unwelcome it jumps: one picture of it tilted, one of it fallen.
+ */
+export function fallenBy(landing: number, first: number, since: number, isStill: boolean): number | null {
+  const rise = first > 0 ? rise_ms : 0, drop = isStill ? 0 : drop_ms;
+  if (since > rise + drop + rest_ms) return null;
+  const tilt = rise === 0 ? 0 : isStill ? first : first * smooth(Math.min(1, since / rise));
+  const down = isStill ? Number(since >= rise) : Math.min(1, Math.max(0, since - rise) / drop);
+  return tilt + Math.max(0, landing - tilt) * down ** 3;
+}
+
 /** Turns a group over an edge, slowly at first, and puts it back. Ends early when asked to. */
 export class FallPlayer {
   #frame = 0;
@@ -38,14 +52,11 @@ export class FallPlayer {
   /** `first`: radians that the plate would have to be tilted before it falls. */
   play(fall: Fall, first: number): void {
     this.stop();
-    const begin = performance.now(), still = reduced();
-    const rise = first > 0 ? 1400 : 0, drop = still ? 0 : 1300, rest = 900;
+    const begin = performance.now(), isStill = reduced();
     const step = () => {
-      const since = performance.now() - begin;
-      const tilt = rise ? first * smooth(Math.min(1, since / rise)) : 0;
-      const down = Math.min(1, Math.max(0, since - rise) / Math.max(1, drop));
-      this.#turn(fall, tilt + Math.max(0, fall.landing - tilt) * down ** 3);
-      if (since > rise + drop + rest) return this.stop();
+      const angle = fallenBy(fall.landing, first, performance.now() - begin, isStill);
+      if (angle === null) return this.stop();
+      this.#turn(fall, angle);
       this.#frame = requestAnimationFrame(step);
     };
     this.#frame = requestAnimationFrame(step);

@@ -6,6 +6,7 @@ import type {Look} from '../state/ui';
 import type {MeshData} from '../transport/frames';
 import {clay} from './clay';
 import type {Inks} from './inks';
+import {facesOf} from './outline';
 import {Section} from './section';
 import {Surface} from './surface';
 
@@ -108,16 +109,16 @@ export class Figure {
     if (!inks || !outside) return;
     const clip = this.#look === 'section' ? [this.section.plane] : [];
     const xray = this.#look === 'xray';
-    this.#add(outside, inks.model, {opacity: xray ? 0.22 : 1, clip}, xray ? 8 : 0);
-    if (xray) this.#add(outside, inks.model, {opacity: 0.12, side: BackSide}, 7);
+    this.#add(outside, xray ? inks.glass : inks.model, {opacity: xray ? 0.25 : 1, clip}, xray ? 8 : 0);
+    if (xray) this.#add(outside, inks.glass, {opacity: 0.15, side: BackSide}, 7);
     if (this.#look === 'solid') return;
     for (const one of this.#voids) this.#add(one, inks.void, {side: DoubleSide, clip}, 0);
-    if (this.#dense && xray) this.#add(this.#dense, inks.dense, {opacity: 0.3}, 9); // it may reach beyond the model
+    if (this.#dense && xray) this.#add(outside, inks.dense, {opacity: 0.8, side: DoubleSide, within: facesOf(this.#dense)}, 9);
   }
 
   #add(surface: Surface, color: Color, options: Parameters<typeof clay>[1], order: number): void {
     const material = clay(color, options);
-    (material.userData.patternInk as {value: Color}).value.copy(this.#inks?.accent ?? color);
+    (material.userData.patternInk as {value: Color}).value.copy(this.#inks?.mark ?? color);
     const mesh = new Mesh(surface.geometry, material);
     mesh.renderOrder = order;
     this.#meshes.push(mesh);

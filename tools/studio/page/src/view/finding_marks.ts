@@ -12,22 +12,19 @@ export function numbered(judgement: Judgement): {finding: Finding; number: numbe
     .map((finding, index) => ({finding, number: index + 1}));
 }
 
-/** Numbered marks where findings are; a press on one shows it in the list. */
+/** Numbered marks beside where findings are; a press on one shows it in the list. */
 export class FindingMarks {
-  #buttons: {button: HTMLButtonElement; finding: Finding}[] = [];
+  #buttons: {button: HTMLButtonElement; at: Vector3}[] = []; // in placed coordinates
   #shown: Judgement | null = null;
 
   constructor(private readonly labels: Labels, private readonly figure: Figure, private readonly ui: UiStore) {}
 
   show(judgement: Judgement | null): void {
     if (judgement !== this.#shown) this.#make(judgement);
-    this.#buttons.forEach(({button, finding}, index) => {
+    for (const {button, at} of this.#buttons) {
       button.setAttribute('aria-pressed', String(this.ui.value.finding === Number(button.textContent)));
-      const at = new Vector3(...finding.at_mm!).applyMatrix4(this.figure.pose.matrixWorld);
-      const same = this.#buttons.slice(0, index).filter((other) => near(other.finding, finding)).length;
-      button.style.marginTop = `${-24 * same}px`;
-      this.labels.put(button, at);
-    });
+      this.labels.putBeside(button, at.clone().applyMatrix4(this.figure.pose.matrixWorld));
+    }
   }
 
   #make(judgement: Judgement | null): void {
@@ -42,11 +39,7 @@ export class FindingMarks {
       button.title = finding.text;
       button.setAttribute('aria-label', `Finding ${number}: ${finding.text}`);
       button.onclick = () => this.ui.patch({finding: this.ui.value.finding === number ? null : number});
-      this.#buttons.push({button, finding});
+      this.#buttons.push({button, at: new Vector3(...finding.at_mm)});
     }
   }
-}
-
-function near(a: Finding, b: Finding): boolean {
-  return Math.hypot(...a.at_mm!.map((value, axis) => value - b.at_mm![axis]!)) < 1;
 }

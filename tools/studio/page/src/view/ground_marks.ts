@@ -2,11 +2,20 @@ import {BufferGeometry, Color, DoubleSide, Float32BufferAttribute, Group, Mesh, 
 
 import {type Balance, type OnPlate, inset, tipTowardsDeg} from './balance';
 import type {Inks} from './inks';
-import {cleared, closed, line} from './lines';
+import {cleared, closed, haloed, line} from './lines';
 import {shared} from './materials';
 
 const directions = 144;
-const mostShownDeg = 45;
+const mostShownDeg = 45, band = 0.3, least = 0.07; // of the ring's radius
+
+/**
+ * Where a bar of the ring ends, in radii from the middle: outward where it stands. By the square root, so that of small angles,
+ * which matter most, more is seen; what falls is seen however little it lacks.
+ */
+export function barEnd(tipDeg: number): number {
+  const length = band * Math.sqrt(Math.min(1, Math.abs(tipDeg) / mostShownDeg));
+  return tipDeg < 0 ? 1 - Math.max(least, length) : 1 + length;
+}
 
 export interface GroundState {
   readonly balance: Balance;
@@ -36,12 +45,12 @@ export class GroundMarks {
     const size = Math.hypot(...spread(polygon));
     if (safe.length > 2)
       this.group.add(line(closed(flat(safe)), {color: inks.good, pixels: 1.5, dash_mm: size / 30}));
-    if (weakEdge) this.group.add(line(flat(weakEdge), {color: inks.bad, pixels: 5, seenThrough: true}));
+    if (weakEdge) this.group.add(...haloed(flat(weakEdge), {color: inks.bad, pixels: 5, seenThrough: true}, inks.paper));
   }
 
   /** Outward of the circle: it stands to that angle; inward, and striped: it falls that way. */
   #ring({balance, askedDeg, center, radius}: GroundState, inks: Inks, lift: number): void {
-    const band = 0.3 * radius, reach = (deg: number) => radius + (band * Math.max(-mostShownDeg, Math.min(mostShownDeg, deg))) / mostShownDeg;
+    const reach = (deg: number) => radius * barEnd(deg);
     const at = (angle: number, r: number) => [center.x + r * Math.cos(angle), center.y + r * Math.sin(angle), lift];
     const circle = (r: number) => Array.from({length: directions + 1}, (_, n) => at((2 * Math.PI * n) / directions, r)).flat();
     const tips = Array.from({length: directions}, (_, n) => {
@@ -58,11 +67,11 @@ export class GroundMarks {
     });
     const geometry = new BufferGeometry().setAttribute('position', new Float32BufferAttribute(points, 3))
       .setAttribute('color', new Float32BufferAttribute(colors, 3));
-    const material = shared('bars', [], () => new MeshBasicMaterial({vertexColors: true, side: DoubleSide, transparent: true, opacity: 0.55}));
+    const material = shared('bars', [], () => new MeshBasicMaterial({vertexColors: true, side: DoubleSide, transparent: true, opacity: 0.85, depthWrite: false}));
     const bars = new Mesh(geometry, material);
-    bars.renderOrder = 4;
+    bars.renderOrder = 3;
     this.group.add(bars, line(circle(radius), {color: inks.ink, pixels: 1, opacity: 0.6}),
-                   line(circle(reach(askedDeg)), {color: inks.ink, pixels: 1, dash_mm: radius / 40, opacity: 0.75}));
+                   ...haloed(circle(reach(askedDeg)), {color: inks.ink, pixels: 1.5, dash_mm: radius / 25}, inks.paper));
   }
 }
 

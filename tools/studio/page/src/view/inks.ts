@@ -6,6 +6,8 @@ export interface Inks {
   readonly plate: Color;
   readonly grid: Color;
   readonly model: Color;
+  readonly mark: Color; // what is painted on the model
+  readonly glass: Color; // the model seen through
   readonly cut: Color;
   readonly cutLine: Color;
   readonly void: Color;
@@ -18,7 +20,7 @@ export interface Inks {
   readonly mild: Color;
 }
 
-const names = ['room', 'plate', 'grid', 'model', 'cut', 'cut-line', 'void', 'dense', 'ink', 'paper', 'accent', 'good',
+const names = ['room', 'plate', 'grid', 'model', 'mark', 'glass', 'cut', 'cut-line', 'void', 'dense', 'ink', 'paper', 'accent', 'good',
                'bad', 'mild'] as const;
 
 export function readInks(): Inks {

@@ -1,7 +1,7 @@
 import {CanvasTexture, Group, Sprite, SpriteMaterial, SRGBColorSpace, type Vector3} from 'three';
 
 import type {Inks} from './inks';
-import {cleared, line} from './lines';
+import {cleared, haloed} from './lines';
 import {shared} from './materials';
 
 /** A centre of mass: the quartered disc of drawings, its plumb line and where that meets the plate. */
@@ -14,14 +14,14 @@ export class MassMark {
     if (!at) return;
     const color = before ? inks.mild : inks.ink, pixels = before ? 1.5 : 2.5, arm = size * (before ? 0.02 : 0.03);
     const stroke = {color, pixels, seenThrough: true, opacity: before ? 0.9 : 1};
-    this.group.add(line([at.x, at.y, at.z, at.x, at.y, plumbTo], {...stroke, dash_mm: before ? size / 60 : 0}));
-    this.group.add(line([at.x - arm, at.y, plumbTo, at.x + arm, at.y, plumbTo], stroke),
-                   line([at.x, at.y - arm, plumbTo, at.x, at.y + arm, plumbTo], stroke));
+    this.group.add(...haloed([at.x, at.y, at.z, at.x, at.y, plumbTo], {...stroke, dash_mm: before ? size / 60 : 0}, inks.paper),
+                   ...haloed([at.x - arm, at.y, plumbTo, at.x + arm, at.y, plumbTo], stroke, inks.paper),
+                   ...haloed([at.x, at.y - arm, plumbTo, at.x, at.y + arm, plumbTo], stroke, inks.paper));
     const sprite = new Sprite(shared('disc', [inks.ink.getHex(), inks.paper.getHex(), inks.mild.getHex(), before],
                                      () => new SpriteMaterial({map: disc(inks, before), depthTest: false, sizeAttenuation: false})));
     sprite.position.copy(at);
     sprite.scale.setScalar(before ? 0.016 : 0.021);
-    sprite.renderOrder = 21;
+    sprite.renderOrder = before ? 21 : 22;
     this.group.add(sprite);
   }
 }

@@ -1,4 +1,4 @@
-import {type BufferGeometry, type Face, Matrix4, Raycaster, Triangle, Vector2, Vector3} from 'three';
+import {type BufferGeometry, DoubleSide, type Face, Matrix4, type Ray, Raycaster, Triangle, Vector2, Vector3} from 'three';
 import {MeshBVH} from 'three-mesh-bvh';
 
 import type {Vec3} from '../state/job';
@@ -9,6 +9,7 @@ import type {Surface} from './surface';
 export interface Hit {
   readonly at: Vector3; // on the plate of the pose
   readonly placed: Vec3; // in placed coordinates, of the model before any bend
+  readonly shown: Vec3; // the same as it is bent
   readonly normal: Vector3; // outward, in placed coordinates
 }
 
@@ -38,13 +39,23 @@ export class Picker {
   at(x: number, y: number): Hit | null {
     const surface = this.figure.outside;
     if (!surface) return null;
-    const {pose} = this.figure;
-    const ray = this.ray(x, y).ray.clone().applyMatrix4(new Matrix4().copy(pose.matrixWorld).invert());
-    const hit = this.#treeOf(surface.geometry).raycastFirst(ray);
-    if (!hit?.face) return null;
+    const {pose} = this.figure, seen = this.ray(x, y).ray, [near, far] = this.#shown(seen);
+    const ray = seen.clone().applyMatrix4(new Matrix4().copy(pose.matrixWorld).invert());
+    const hit = near < far ? this.#treeOf(surface.geometry).raycastFirst(ray, DoubleSide, near, far) : null;
+    if (!hit?.face || hit.face.normal.dot(ray.direction) >= 0) return null; // from within: it is the face of a cut
     return {
-      at: hit.point.clone().applyMatrix4(pose.matrixWorld), placed: atRest(surface, hit.face, hit.point), normal: hit.face.normal.clone(),
+      at: hit.point.clone().applyMatrix4(pose.matrixWorld), placed: atRest(surface, hit.face, hit.point), shown: hit.point.toArray(),
+      normal: hit.face.normal.clone(),
     };
+  }
+
+  /** From where to where a line of sight is on the side of the cut that is shown, mm. */
+  #shown(ray: Ray): readonly [near: number, far: number] {
+    const {caps, section: {plane}} = this.figure;
+    if (!caps.children.some((cap) => cap.visible)) return [0, Infinity];
+    const depth = plane.distanceToPoint(ray.origin), speed = plane.normal.dot(ray.direction), at = -depth / speed;
+    if (depth >= 0) return [0, speed < 0 ? at : Infinity];
+    return speed > 0 ? [at, Infinity] : [0, 0];
   }
 
   #treeOf(geometry: BufferGeometry): MeshBVH {

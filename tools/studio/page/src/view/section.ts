@@ -1,20 +1,23 @@
 import {
-  AlwaysStencilFunc, BackSide, Color, DecrementWrapStencilOp, DoubleSide, EqualStencilFunc, FrontSide, type Group,
+  AlwaysStencilFunc, BackSide, type BufferAttribute, Color, DecrementWrapStencilOp, DoubleSide, EqualStencilFunc, FrontSide, Group,
   IncrementWrapStencilOp, KeepStencilOp, Mesh, MeshBasicMaterial, Plane, PlaneGeometry, type Side,
   ShaderMaterial, type StencilOp, Vector3,
 } from 'three';
 
+import type {CutAxis} from '../state/ui';
 import type {Inks} from './inks';
+import {cleared, segments} from './lines';
+import {outlineOf} from './outline';
 import type {Surface} from './surface';
 
-export type CutAxis = 'x' | 'y' | 'z';
 
 const normals: Record<CutAxis, Vector3> = {
   x: new Vector3(-1, 0, 0), y: new Vector3(0, 1, 0), z: new Vector3(0, 0, -1),
 };
 
 /**
- * A plane that cuts the figure open. Walls are hatched as on a drawing, dense infill is hatched across, voids stay open.
+ * A plane that cuts the figure open. Walls are hatched and outlined as on a drawing, dense infill is hatched across, voids stay
+ * open.
  *
  * The stencil counts how often a pixel's line of sight goes in and out behind the plane: outer surfaces add one, voids take
  * it away, so it is one exactly where there is wall; dense infill adds one more, and counts where that makes two.
@@ -24,16 +27,23 @@ export class Section {
   readonly #wall: Mesh;
   readonly #dense: Mesh;
   #counters: Mesh[] = [];
+  readonly #outline = new Group(); // in the coordinates of what is cut
+  #outlined: readonly Surface[] = [];
+  #drawn = '';
+  #ink = new Color();
 
   /** `parent`: of what is cut; `plate`: of the cut's faces, in whose coordinates the plane is. */
   constructor(private readonly parent: Group, plate: Group) {
     this.#wall = cap(1, 1.2);
     this.#dense = cap(2, 2.2);
     plate.add(this.#wall, this.#dense);
+    parent.add(this.#outline);
     this.show(false);
   }
 
   paint(inks: Inks): void {
+    this.#ink = inks.ink;
+    this.#drawn = '';
     for (const [mesh, cross] of [[this.#wall, 0], [this.#dense, 1]] as const) {
       const {uniforms} = mesh.material as ShaderMaterial;
       (uniforms.ground!.value as Color).copy(inks.cut);
@@ -51,12 +61,14 @@ export class Section {
     this.#counters = [...this.#counting(outside, true, 1), ...voids.flatMap((one) => this.#counting(one, false, 1)),
                       ...(dense ? this.#counting(dense, true, 2) : [])];
     this.parent.add(...this.#counters);
+    this.#outlined = [outside, ...voids];
+    this.#drawn = '';
     this.show(this.#wall.visible);
     this.#dense.userData.any = dense !== null;
   }
 
   show(visible: boolean): void {
-    for (const mesh of [...this.#counters, this.#wall]) mesh.visible = visible;
+    for (const part of [...this.#counters, this.#wall, this.#outline]) part.visible = visible;
     this.#dense.visible = visible && this.#dense.userData.any === true;
   }
 
@@ -71,6 +83,21 @@ export class Section {
       mesh.scale.setScalar(3 * size);
       ((mesh.material as ShaderMaterial).uniforms.pitch!).value = (3 * size) / (size / 34);
     }
+    if (this.#outline.visible) this.#drawOutline(size);
+  }
+
+  /** Draws where the plane meets the surfaces, if that is not drawn yet; a little on the viewer's side of the cut's faces. */
+  #drawOutline(size: number): void {
+    this.parent.updateWorldMatrix(true, false);
+    const inside = this.parent.matrixWorld.clone().invert(), plane = this.plane.clone().applyMatrix4(inside);
+    const versions = this.#outlined.map(({geometry}) => (geometry.getAttribute('position') as BufferAttribute).version);
+    const wanted = JSON.stringify([plane.normal, plane.constant, versions]);
+    if (wanted === this.#drawn) return;
+    this.#drawn = wanted;
+    cleared(this.#outline);
+    const ends = this.#outlined.flatMap((surface) => outlineOf(surface, plane)), nearer = plane.normal.clone().multiplyScalar(-0.001 * size);
+    if (ends.length) this.#outline.add(segments(ends, {color: this.#ink, pixels: 1.5}));
+    this.#outline.position.copy(nearer);
   }
 
   #counting(surface: Surface, matter: boolean, round: number): Mesh[] {

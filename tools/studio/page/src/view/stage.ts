@@ -2,6 +2,7 @@ import {Box3, DirectionalLight, HemisphereLight, PerspectiveCamera, Scene, Spher
 import {OrbitControls} from 'three/addons/controls/OrbitControls.js';
 
 import type {Inks} from './inks';
+import {orbited} from './orbit';
 
 export type Side = 'corner' | 'front' | 'right' | 'top';
 
@@ -23,6 +24,7 @@ export class Stage {
   /** Without a model nothing is drawn: the page invites to open one. */
   hasModel = false;
   #asked = false;
+  #held = '';
 
   constructor(readonly canvas: HTMLCanvasElement) {
     this.renderer = new WebGLRenderer({canvas, antialias: !drawsInSoftware(), stencil: true});
@@ -48,8 +50,18 @@ export class Stage {
       this.#asked = false;
       for (const before of this.beforeDraw) before();
       this.renderer.render(this.scene, this.camera);
+      this.#tellMemory();
       for (const after of this.afterDraw) after();
     });
+  }
+
+  /** Says what WebGL holds, where that has changed, for who measures (User Timing). */
+  #tellMemory(): void {
+    const {geometries, textures} = this.renderer.info.memory, held = `${geometries} geometries, ${textures} textures`;
+    if (held === this.#held) return;
+    this.#held = held;
+    performance.clearMarks('aplomb-held');
+    performance.mark('aplomb-held', {detail: {geometries, textures}});
   }
 
   paint(inks: Inks): void {
@@ -73,6 +85,13 @@ export class Stage {
     this.controls.maxDistance = distance * 6;
     this.controls.update();
     this.invalidate();
+  }
+
+  /** Goes round what is looked at, by degrees to the right and up. */
+  orbit(right_deg: number, up_deg: number): void {
+    const way = this.camera.position.clone().sub(this.controls.target);
+    this.camera.position.copy(orbited(way, right_deg, up_deg)).add(this.controls.target);
+    this.controls.update();
   }
 
   /** Millimetres that a pixel of the page covers at a point. */

@@ -1,17 +1,17 @@
 import {Group, Vector3} from 'three';
 
 import type {DocumentStore} from '../state/document';
-import {type Vec3, bends, posesOf, poseUp} from '../state/job';
+import {type Vec3, posesOf, poseUp} from '../state/job';
 import {Signal} from '../state/signal';
-import type {UiStore} from '../state/ui';
-import {type ResultsStore, freshStand, shownJudgement} from '../results/results';
-import {figuresOf} from '../results/verdict';
+import {type UiStore, takesPoints} from '../state/ui';
+import {type PreviewResult, type Results, type ResultsStore, freshStand, isBent, shownJudgement} from '../results/results';
+import {figuresOf, shownPreview} from '../results/verdict';
 import {degrees, wayOf} from '../results/words';
 import {type Balance, type OnPlate, counterclockwise} from './balance';
 import {FallPlayer, fallOver} from './fall';
 import {Figure, type Surfaces} from './figure';
 import {FindingMarks} from './finding_marks';
-import {GroundMarks} from './ground_marks';
+import {GroundMarks, barEnd} from './ground_marks';
 import {type Inks, readInks} from './inks';
 import {Labels} from './labels';
 import {MassMark} from './mass_mark';
@@ -46,7 +46,7 @@ export class View {
   readonly moved_mm = new Signal(0); // the largest way of a vertex in what is shown
 
   constructor(canvas: HTMLCanvasElement, room: HTMLElement, private readonly documents: DocumentStore,
-              private readonly results: ResultsStore, private readonly ui: UiStore) {
+              private readonly results: ResultsStore, private readonly ui: UiStore, private readonly isComing: () => boolean) {
     this.stage = new Stage(canvas);
     this.stage.beforeDraw.add(() => this.#refresh()); // before what follows the figure
     this.picker = new Picker(this.stage, this.figure);
@@ -97,7 +97,7 @@ export class View {
   #refresh(): void {
     if (!this.#isOld) return;
     this.#isOld = false;
-    const {doc} = this.documents, results = this.results.value, ui = this.ui.value, job = this.documents.job;
+    const {doc} = this.documents, results = this.#drawn(), ui = this.ui.value, job = this.documents.job;
     const stand = freshStand(results, doc), fits = results.placed !== null && doc.model !== null;
     const surfaces: Surfaces | null = !fits ? null
       : stand?.outside && !this.documents.state.value.wish
@@ -118,11 +118,16 @@ export class View {
     this.#findings.show(surfaces ? shownJudgement(results, doc)?.judgement ?? null : null);
   }
 
+  /** What is drawn: where the result is bent and a tool takes its points from the surface, the model, of which the job speaks. */
+  #drawn(): Results {
+    const results = this.results.value;
+    return takesPoints(this.ui.value.tool) && isBent(results, this.documents.asked) ? {...results, stand: null} : results;
+  }
+
   #bend(surfaces: Surfaces | null, isOther: boolean): void {
     const {outside} = this.figure;
     if (!outside) return;
-    const job = this.documents.job;
-    const preview = bends(job) && surfaces?.outside === this.results.value.placed?.mesh ? this.results.value.preview : null;
+    const preview = surfaces?.outside === this.results.value.placed?.mesh ? this.#preview() : null;
     const positions = preview?.positions?.length === outside.positions.length ? preview.positions : null;
     if (isOther || positions !== this.#bent) {
       if (positions || this.#bent) {
@@ -133,6 +138,10 @@ export class View {
       this.#bent = positions;
     }
     if (!positions) this.moved_mm.set(0);
+  }
+
+  #preview(): PreviewResult | null {
+    return shownPreview(this.#drawn(), this.documents.asked, this.isComing());
   }
 
   #size(): {height: number; largest: number} {
@@ -171,16 +180,14 @@ export class View {
 
   /** Plumb lines before and after, support polygon and ring of the pose that is shown. */
   #drawBalance(index: number): void {
-    const {doc} = this.documents, found = figuresOf(this.results.value, doc, index), inks = this.#inks;
-    const {largest} = this.#size(), onPlate = (p: Vec3) => new Vector3(...p).applyMatrix4(this.figure.pose.matrixWorld);
-    const shown = this.figure.outside && !this.documents.state.value.wish ? found : null;
-    const com = shown && onPlate(shown.figures.com_mm);
-    const isAfter = shown !== null && shown.pose.after != null, was = found?.pose.before.com_mm;
-    const bent = this.#bent ? this.results.value.preview?.preview.center_mm : undefined;
-    this.#now.show(bent ? onPlate(bent) : com, inks, largest, false);
-    this.#before.show((isAfter || bent) && was ? onPlate(was) : null, inks, largest, true);
+    const inks = this.#inks, {largest} = this.#size();
+    const onPlate = (p: Vec3) => new Vector3(...p).applyMatrix4(this.figure.pose.matrixWorld);
+    const shown = this.figure.outside ? this.#figures(index) : null, com = shown && onPlate(shown.figures.com_mm);
+    const was = shown?.pose.after ? shown.pose.before.com_mm : this.#bent ? this.results.value.placed?.placed.center_mm : null;
+    this.#now.show(com, inks, largest, false);
+    this.#before.show(was ? onPlate(was) : null, inks, largest, true);
     const polygon = shown?.figures.support_polygon_mm, edge = shown?.figures.weak_edge;
-    if (!shown || !com || !polygon || polygon.length < 3 || bends(doc.job) && !isAfter) {
+    if (!shown || !com || !polygon || polygon.length < 3) {
       this.#ground.show(null, inks, false);
       this.labels.remove(this.#weakLabel);
       this.labels.remove(this.#front);
@@ -200,13 +207,18 @@ export class View {
       return this.labels.remove(this.#weakLabel);
     this.#weakLabel.textContent = `${degrees(shown.figures.tip_deg)}°`;
     this.#weakLabel.title = `weakest ${wayOf(edge.heading, shown.pose.up)}`;
-    const away = (1.16 + (0.3 * Math.max(0, shown.figures.tip_deg)) / 45) * radius; // beyond the ring's bar
+    const away = (0.16 + Math.max(barEnd(shown.figures.tip_deg), barEnd(shown.pose.required_tip_deg ?? 0))) * radius; // beyond the ring
     this.labels.put(this.#weakLabel, new Vector3(center.x, center.y, 0).addScaledVector(heading, away));
+  }
+
+  /** What is true of a pose as it is drawn now. */
+  #figures(index: number): ReturnType<typeof figuresOf> {
+    return figuresOf(this.#drawn(), this.documents.asked, index, this.isComing());
   }
 
   /** Plays the way it falls over its weak edge, of the pose that is shown. */
   fall(): void {
-    const found = figuresOf(this.results.value, this.documents.doc, this.ui.value.pose), edge = found?.figures.weak_edge;
+    const found = this.#figures(this.ui.value.pose), edge = found?.figures.weak_edge;
     if (!found || !edge || !this.figure.outside) return;
     if (this.#player.playing) return this.#player.stop();
     const turn = this.figure.pose.matrixWorld, heading = new Vector3(...edge.heading).transformDirection(turn);

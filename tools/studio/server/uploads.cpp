@@ -1,4 +1,4 @@
-#include "server/models.h"
+#include "server/uploads.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t most_name_bytes = 100, most_extension_bytes = 8, models_kept = 8;
+constexpr std::size_t most_name_bytes = 100, most_extension_bytes = 8, uploads_kept = 8;
 
 /// The longest beginning of at most so many bytes that cuts no character in two.
 std::string beginning(const std::string& text, std::size_t bytes) {
@@ -26,6 +26,12 @@ bool is_utf8(const std::string& text) {
   } catch (const nlohmann::json::exception&) {
     return false;
   }
+}
+
+std::uintmax_t size_of(const Upload& upload) {
+  std::error_code failed;
+  const std::uintmax_t bytes = fs::file_size(upload.file(), failed);
+  return failed ? 0 : bytes;
 }
 
 }  // namespace
@@ -44,32 +50,41 @@ std::string safe_name(std::string_view name) {
   return (stem.empty() ? "model" : stem) + extension;
 }
 
-Result<Model> Models::begin(std::string_view name) {
-  Model model;
+Result<Upload> Uploads::begin(std::string_view name) {
+  Upload upload;
   {
     const std::lock_guard lock(mutex_);
-    model.id = ++last_id_;
+    upload.id = ++last_id_;
   }
-  model.name = safe_name(name);
-  model.folder = folder_ / fmt::format("model-{}", model.id);
+  upload.name = safe_name(name);
+  upload.folder = folder_ / fmt::format("{}-{}", kind_, upload.id);
   std::error_code failed;
-  fs::create_directory(model.folder, failed);
-  if (failed) return fail(ErrorCode::file_system, "there is no place for the model: " + failed.message());
-  return model;
+  fs::create_directory(upload.folder, failed);
+  if (failed)
+    return fail(ErrorCode::file_system, fmt::format("there is no place for the {}: {}", kind_, failed.message()));
+  return upload;
 }
 
-void Models::add(const Model& model) {
-  const std::lock_guard lock(mutex_);
-  kept_.push_back(model);
-  if (kept_.size() <= models_kept) return;
+void Uploads::drop(const Upload& upload) {
   std::error_code ignored;
-  fs::remove_all(kept_.front().folder, ignored);
-  kept_.pop_front();
+  fs::remove_all(upload.folder, ignored);
 }
 
-std::optional<Model> Models::find(int id) {
+void Uploads::add(const Upload& upload) {
   const std::lock_guard lock(mutex_);
-  const auto at = std::ranges::find(kept_, id, &Model::id);
+  kept_.push_back(upload);
+  std::uintmax_t bytes = 0;
+  std::size_t kept = 0;  // from the newest on
+  for (auto at = kept_.rbegin(); at != kept_.rend() && kept < uploads_kept; ++at, ++kept) {
+    bytes += size_of(*at);
+    if (kept > 0 && bytes > most_bytes_) break;
+  }
+  for (; kept_.size() > kept; kept_.pop_front()) drop(kept_.front());
+}
+
+std::optional<Upload> Uploads::find(int id) {
+  const std::lock_guard lock(mutex_);
+  const auto at = std::ranges::find(kept_, id, &Upload::id);
   if (at == kept_.end()) return std::nullopt;
   std::rotate(at, at + 1, kept_.end());
   return kept_.back();
