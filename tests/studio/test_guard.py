@@ -167,15 +167,25 @@ class Guard(unittest.TestCase):
     def test_nothing_is_left_of_what_was_refused_or_cut_off(self):
         def kept():
             return sorted(os.path.join(folder, name) for folder, _, files in os.walk(self.models) for name in (".", *files))
+
+        def wait(happened):
+            deadline = time.monotonic() + 15
+            while not happened() and time.monotonic() < deadline:
+                time.sleep(0.01)
+            self.assertTrue(happened(), kept())
+
+        def send(length):
+            raw = socket.create_connection(("127.0.0.1", self.studio.port), timeout=15)
+            raw.sendall((f"POST /api/model?name=cut.stl HTTP/1.1\r\nHost: 127.0.0.1:{self.studio.port}\r\n"
+                         f"Authorization: Bearer {self.studio.token}\r\nContent-Length: {length}\r\n\r\nsolid").encode())
+            return raw
         before = kept()
-        for length in ("2000000", "50000"):  # too long; more than will come
-            with socket.create_connection(("127.0.0.1", self.studio.port)) as raw:
-                raw.sendall((f"POST /api/model?name=cut.stl HTTP/1.1\r\nHost: 127.0.0.1:{self.studio.port}\r\n"
-                             f"Authorization: Bearer {self.studio.token}\r\nContent-Length: {length}\r\n\r\nsolid").encode())
-        deadline = time.monotonic() + 15
-        while kept() != before and time.monotonic() < deadline:
-            time.sleep(0.05)
+        with send(2000000) as refused:
+            self.assertIn(b" 413 ", refused.recv(100))
         self.assertEqual(kept(), before)
+        with send(50000):  # more than will come
+            wait(lambda: any(path.endswith("/cut.stl") for path in kept()))
+        wait(lambda: kept() == before)
 
     def test_models_lie_where_only_this_user_sees_them(self):
         (folder,) = self.models.iterdir()
