@@ -12,6 +12,7 @@ import studio
 from studio import JSON, QUICK
 
 LONG = {"poses": [{"stand": {"tip_deg": 10}}], "voxel_mm": 0.3}  # of some ten seconds
+SLOW = {"fem": True}  # judged by elasticity, too: of some seven seconds
 BEND = {"deform": "only", "deform_limit_percent": 50, "poses": [{"stand": {"tip_deg": 30}}]}
 
 
@@ -26,8 +27,10 @@ def soon(condition, seconds=20):
 
 
 def is_alive(process):
+    """Also while but one of its threads is: until then its files are open."""
     try:
-        return "\nState:\tZ" not in pathlib.Path(f"/proc/{process}/status").read_text()
+        is_zombie = "\nState:\tZ" in pathlib.Path(f"/proc/{process}/status").read_text()
+        return not is_zombie or len(os.listdir(f"/proc/{process}/task")) > 1
     except OSError:
         return False
 
@@ -37,10 +40,16 @@ class Endings(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
-        self.studio = studio.Studio(environment={"TMPDIR": folder.name})
-        self.addCleanup(self.studio.process.kill)
-        self.addCleanup(self.studio.process.stdout.close)
+        self.studio = self.begin_studio()
         self.trex = self.studio.fixture("trex.stl")
+
+    def begin_studio(self, **environment):
+        """One in the test's own folder, ended at the latest with the test."""
+        begun = studio.Studio(environment={"TMPDIR": str(self.folder), **environment})
+        self.addCleanup(begun.process.wait)  # else it may still write while its folder goes
+        self.addCleanup(begun.process.kill)
+        self.addCleanup(begun.process.stdout.close)
+        return begun
 
     def child(self, words):
         """The server's child whose command line has them, once it is there."""
@@ -67,7 +76,7 @@ class Endings(unittest.TestCase):
 
     def test_a_killed_solver_is_a_message_and_the_next_try_works(self):
         self.assertTrue(self.is_placed())
-        frames, _ = self.begin("/api/validate", job={}, of="model")
+        frames, _ = self.begin("/api/validate", job=SLOW, of="model")
         solver = self.child("--solver")
         os.kill(solver, signal.SIGKILL)
         said = self.last(frames)
@@ -100,7 +109,7 @@ class Endings(unittest.TestCase):
         self.assertEqual(self.last(frames), {"type": "cancelled"})
         self.assertLess(time.monotonic() - begun, 5)
         self.assertTrue(soon(lambda: not is_alive(run)))
-        frames, _ = self.begin("/api/validate", job={}, of="model")
+        frames, _ = self.begin("/api/validate", job=SLOW, of="model")
         self.studio.post("/api/cancel")
         self.assertEqual(self.last(frames), {"type": "cancelled"})
         self.assertTrue(self.is_placed())
@@ -189,14 +198,19 @@ class Endings(unittest.TestCase):
 
     def test_what_a_killed_server_left_goes_when_the_next_begins_and_what_another_holds_stays(self):
         (held,) = self.folder.iterdir()
-        killed = studio.Studio(environment={"TMPDIR": str(self.folder)})
+        killed = self.begin_studio()
         (left,) = set(self.folder.iterdir()) - {held}
         killed.process.kill()
-        killed.process.communicate()
+        killed.process.wait()
         self.assertTrue(left.exists())
         with studio.Studio(environment={"TMPDIR": str(self.folder)}):
             self.assertFalse(left.exists())
             self.assertTrue(held.exists())
+
+    def test_it_ends_where_it_is_told_to_before_it_listens(self):
+        begun = self.begin_studio(LD_PRELOAD=os.environ["APLOMB_SLOW_BESIDE_THREADS"])
+        begun.process.send_signal(signal.SIGINT)
+        self.assertEqual(begun.process.wait(20), 0)
 
     def test_the_command_line_becomes_the_studio(self):
         with subprocess.Popen([studio.CLI, "studio", "--no-browser", "--port", "0"], stdout=subprocess.PIPE, text=True) as process:

@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <iostream>
 #include <thread>
 
@@ -116,7 +117,8 @@ int run_studio(const StudioOptions& options) {
     int number = 0;
     sigwait(&endings, &number);
     routes.close();
-    server.stop();
+    while (!server.is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    server.stop();  // nothing, before it runs
   }).detach();
   return server.listen_after_bind() ? 0 : static_cast<int>(Ending::internal);
 }
