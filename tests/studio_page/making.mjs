@@ -6,7 +6,7 @@ import {basename, join} from 'node:path';
 import {after, before, describe, test} from 'node:test';
 
 import {countPixels, decodePng} from './support/png.mjs';
-import {angleIn, drawn, openPage, programs, take, verdict, withFolder} from './support/studio.mjs';
+import {angleIn, drawn, openPage, programs, runOf, take, verdict, withFolder} from './support/studio.mjs';
 
 /** The blue of what is empty, in any light. */
 const isVoid = (red, green, blue) => blue > red + 35 && blue > green + 20;
@@ -58,7 +58,7 @@ export function making(bench) {
       await page.locator('[role=tab][aria-selected="true"]', {hasText: 'pose 1'}).waitFor();
       for (const name of ['pose 2', 'pose 1', 'pose 2']) {
         await page.keyboard.press('ArrowRight');
-        await page.waitForFunction((wanted) => document.activeElement.textContent === wanted, name);
+        await page.locator('[role=tab]:focus', {hasText: name}).waitFor();
         await aWhile();
         assert.equal(await page.evaluate(() => document.activeElement.textContent), name);
       }
@@ -72,6 +72,7 @@ export function making(bench) {
       await verdict(page, /Falls/);
       await page.click('#make');
       await page.locator('#cancel').waitFor();
+      process.kill(await runOf(bench.coarse.pid), 'SIGSTOP'); // lest it end before
       await page.keyboard.press('Escape');
       await page.locator('#make').waitFor();
       assert.match(await verdict(page), /Falls/);
@@ -131,6 +132,7 @@ export function making(bench) {
     test('where it is asked for, a run begins when the hand rests, and once for each job', async () => {
       const once = page.getByLabel('Answer at once');
       await once.check();
+      process.kill(await runOf(bench.coarse.pid), 'SIGSTOP'); // lest it end before
       await page.click('#cancel');
       await page.locator('#make').waitFor();
       await page.waitForTimeout(500);

@@ -126,3 +126,19 @@ export function childrenOf(pid) {
   add(pid);
   return found;
 }
+
+/** The run that a server has begun, once it is there: the page says that it makes something before that. */
+export async function runOf(pid) {
+  for (const until = Date.now() + 60_000; Date.now() < until;) {
+    const run = childrenOf(pid).find((child) => {
+      try {
+        return readFileSync(`/proc/${child}/cmdline`, 'latin1').split('\0')[1] === 'run';
+      } catch {
+        return false; // it has ended meanwhile
+      }
+    });
+    if (run) return run;
+    await new Promise((resolve) => setTimeout(resolve, 20));
+  }
+  throw new Error('no run has begun');
+}
