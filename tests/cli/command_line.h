@@ -11,6 +11,7 @@
 #include <string>
 
 #include "aplomb/io/write_mesh.h"
+#include "support/mesh_files.h"
 #include "support/shapes.h"
 
 namespace aplomb {
@@ -20,11 +21,6 @@ namespace fs = std::filesystem;
 /// The program itself, run as a person or a script would, in a folder of its own.
 class CommandLine : public ::testing::Test {
  protected:
-  CommandLine() : folder_(fs::temp_directory_path() / ("aplomb_cli_" + std::to_string(getpid()))) {
-    fs::create_directories(folder_);
-  }
-  ~CommandLine() override { fs::remove_all(folder_); }
-
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
   int run(const std::string& arguments) const {
@@ -47,7 +43,8 @@ class CommandLine : public ::testing::Test {
   /// Leans so far that its centre of mass lies 1 mm beyond its base.
   std::string toppling() const { return write("leaning.stl", test::leaning_prism(28, 28, 60, 30)); }
 
-  fs::path folder_;
+  const test::TempFolder temporary_;
+  const fs::path& folder_ = temporary_.path();
 };
 
 }  // namespace aplomb

@@ -15,6 +15,7 @@
 #include "aplomb/io/read_mesh.h"
 #include "aplomb/io/write_mesh.h"
 #include "cli/command_line.h"
+#include "support/cost.h"
 #include "support/shapes.h"
 
 namespace aplomb {
@@ -151,23 +152,29 @@ TEST_F(CommandLine, SeveralPrintsAreNamedAndOneIsChosen) {
 
 TEST_F(CommandLine, CtrlCEndsWithinTwoHundredMillisecondsWithFourAndNoFile) {
   const std::string model = toppling(), output = path("out.3mf"), dump = path("dump");
-  const pid_t child = fork();
-  if (child == 0) {
-    execl(APLOMB_CLI, APLOMB_CLI, "stand", model.c_str(), "--voxel", "0.05mm", "--memory", "20GB", "-q", "--dump",
-          dump.c_str(), "-o", output.c_str(), nullptr);
-    _exit(127);
-  }
-  for (int tries = 0; tries < 6000 && !fs::exists(dump + "/3-solid.ply"); ++tries) usleep(10'000);
-  usleep(100'000);  // by now it samples the volume, which takes half a minute
-  const auto start = std::chrono::steady_clock::now();
-  kill(child, SIGINT);
-  int status = 0;
-  waitpid(child, &status, 0);
-  const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - start;
-  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 4);
-  EXPECT_LT(waited.count(), 0.5);  // 150 ms is the program's own limit; the rest is the machine's
-  for (const auto& entry : fs::directory_iterator(folder_))
-    EXPECT_EQ(entry.path().filename().string().find("out"), std::string::npos);
+  const auto seconds_to_the_end = [&] {
+    fs::remove_all(dump);
+    const pid_t child = fork();
+    if (child == 0) {
+      execl(APLOMB_CLI, APLOMB_CLI, "stand", model.c_str(), "--voxel", "0.05mm", "--memory", "20GB", "-q", "--dump",
+            dump.c_str(), "-o", output.c_str(), nullptr);
+      _exit(127);
+    }
+    for (int waits = 0; waits < 6000 && !fs::exists(dump + "/3-solid.ply"); ++waits) usleep(10'000);
+    EXPECT_TRUE(fs::exists(dump + "/3-solid.ply"));
+    usleep(100'000);  // by now it samples the volume, which takes half a minute
+    const auto start = std::chrono::steady_clock::now();
+    kill(child, SIGINT);
+    int status = 0;
+    waitpid(child, &status, 0);
+    const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - start;
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 4);
+    for (const auto& entry : fs::directory_iterator(folder_))
+      EXPECT_EQ(entry.path().filename().string().find("out"), std::string::npos);
+    return waited.count();
+  };
+  constexpr double most_s = 0.5;  // 150 ms is the program's own limit; the rest is the machine's
+  EXPECT_LT(test::least_seconds(seconds_to_the_end, most_s), most_s);
 }
 
 TEST_F(CommandLine, EndsWithFiveAndWithoutOutputWhereTheTimeOrTheTrianglesAreOverWhatMayBe) {

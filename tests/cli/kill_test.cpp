@@ -216,20 +216,31 @@ TEST_F(Limits, TheTimeAllowedIsKeptTenfoldOverAndJustUnder) {
     EXPECT_EQ(run_with(arguments).second, 0);
     return std::chrono::duration<double>(Clock::now() - start).count();
   };
-  const double whole_s = std::max(seconds(), seconds());
-  const auto ending_within = [&](double share) {
+  double least_s = seconds(), most_s = least_s;
+  const auto measure_again = [&] {
+    const double whole_s = seconds();
+    least_s = std::min(least_s, whole_s);
+    most_s = std::max(most_s, whole_s);
+  };
+  measure_again();
+  const auto ending_within = [&](double limit_s) {
     fs::remove(path("out.3mf"));
     std::vector<std::string> limited = arguments;
-    limited.insert(limited.end(), {"--time", std::to_string(static_cast<int>(1000 * share * whole_s)) + "ms"});
+    limited.insert(limited.end(), {"--time", std::to_string(static_cast<int>(1000 * limit_s)) + "ms"});
     return run_with(limited).second;
   };
   for (const double share : {0.1, 0.5}) {
-    EXPECT_EQ(ending_within(share), 5) << share << " of " << whole_s << " s";
+    int ending = ending_within(share * least_s);
+    for (int again = 0; again < 4 && ending == 0; ++again) {  // the machine may be faster now than it was
+      measure_again();
+      ending = ending_within(share * least_s);
+    }
+    EXPECT_EQ(ending, 5) << share << " of " << least_s << " s";
     EXPECT_FALSE(fs::exists(path("out.3mf")));
     EXPECT_NE(text_of("stderr").find("--time"), std::string::npos) << text_of("stderr");
   }
-  double enough = 1.1;  // the machine may be slower now than it was
-  while (enough < 8 && ending_within(enough) != 0) enough *= 1.3;
+  double enough = 1.1;  // or slower
+  while (enough < 8 && ending_within(enough * most_s) != 0) enough *= 1.3;
   EXPECT_LT(enough, 8);
   EXPECT_TRUE(fs::exists(path("out.3mf")));
 }

@@ -30,6 +30,15 @@ std::vector<std::byte> version(int n) { return std::vector<std::byte>(file_bytes
     if (!write_file_atomically(target, version(n))) _exit(1);
 }
 
+/// Waits until a child has begun to write: a temporary file of its own is there.
+bool begins_to_write(const fs::path& folder, pid_t child) {
+  const std::string own = ".aplomb-" + std::to_string(child) + "-";
+  for (int waits = 0; waits < 600'000; ++waits, usleep(100))
+    for (const auto& entry : fs::directory_iterator(folder))
+      if (entry.path().filename().string().starts_with(own)) return true;
+  return false;
+}
+
 bool is_whole(const std::string& bytes) {
   return bytes.size() == file_bytes && std::ranges::all_of(bytes, [&](char c) { return c == bytes.front(); });
 }
@@ -45,6 +54,7 @@ TEST(AtomicFile, KilledAtFiftyMomentsOfTheWriteIsOldOrNewAndWhole) {
   for (int kill_number = 0; kill_number < 50; ++kill_number) {
     const pid_t child = fork();
     if (child == 0) write_for_ever(target);
+    ASSERT_TRUE(begins_to_write(folder.path(), child));
     usleep(static_cast<useconds_t>(1e6 * std::uniform_real_distribution<double>(0, 2 * write_s)(random)));
     kill(child, SIGKILL);
     int status = 0;

@@ -2,6 +2,8 @@
 // stopped.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "aplomb/mesh/bodies.h"
 #include "aplomb/mesh/solid_mesh.h"
 #include "support/cancelled.h"
@@ -40,14 +42,19 @@ TEST_P(ManyBodies, AreToldApartInTimeAndMemoryThatGrowWithTheFile) {
       if (!prints || prints->size() != (GetParam().is_one_print ? 1U : std::size_t(count))) abort();
     });
   };
-  const test::Cost whole = cost(count());
+  test::Cost whole = cost(count());
   ASSERT_TRUE(whole.ended);
-  std::cout << "  " << whole.seconds << " s, " << (whole.peak_bytes >> 20) << " MB\n";
   if (test::is_sanitized()) return;
-  EXPECT_LT(whole.seconds, 15);  // 3 to 6 on quiet cores
+  test::Cost eighth = cost(count() / 8);
+  const auto most_s = [&] { return std::min(15.0, 0.2 + 14 * eighth.seconds); };  // 3 to 6 on quiet cores
+  for (int again = 0; again < 3 && whole.seconds >= most_s(); ++again) {          // the two were not measured at once
+    whole = test::least_of(whole, cost(count()));
+    eighth = test::least_of(eighth, cost(count() / 8));
+  }
+  ASSERT_TRUE(whole.ended && eighth.ended);
+  std::cout << "  " << whole.seconds << " s, " << (whole.peak_bytes >> 20) << " MB\n";
+  EXPECT_LT(whole.seconds, most_s()) << "an eighth takes " << eighth.seconds << " s";
   EXPECT_LT(double(whole.peak_bytes), 64e6 + 1500.0 * count());
-  const test::Cost eighth = cost(count() / 8);
-  EXPECT_LT(whole.seconds, 0.2 + 14 * eighth.seconds) << "an eighth takes " << eighth.seconds << " s";
 }
 
 TEST_P(ManyBodies, CanBeStoppedWhileTheyAreToldApart) {
@@ -65,9 +72,13 @@ TEST(ManyBodiesInOneAnothersBoxes, AreRefusedWithTheRemedyRatherThanSortedOutFor
     EXPECT_EQ(result.error().code, ErrorCode::unusable_input);
     EXPECT_NE(result.error().message.find("split the file"), std::string::npos) << result.error().message;
   };
-  const double start_s = test::thread_cpu_s();
-  refused(split_prints(test::needles_slanted(40'000)));
-  EXPECT_LT(test::thread_cpu_s() - start_s, test::is_sanitized() ? 200 : 20);
+  const double most_s = test::is_sanitized() ? 200 : 20;
+  const auto refuse = [&] {
+    const double start_s = test::thread_cpu_s();
+    refused(split_prints(test::needles_slanted(40'000)));
+    return test::thread_cpu_s() - start_s;
+  };
+  EXPECT_LT(test::least_seconds(refuse, most_s), most_s);
 }
 
 TEST(ManyBodiesInOneAnother, AreASolidOrRefusedAsTheyWind) {

@@ -22,7 +22,7 @@ constexpr double most_end_wall_s = is_sanitized() ? 10 : 2;
 /// Our aim is 0.1; a checked build may take twice that, one under a sanitizer several times.
 constexpr double most_silence_s = is_sanitized() ? 1 : 0.2;
 
-/// Lets a run go to its end, whatever that is, and asks that it is never silent for long: in one of three runs, for
+/// Lets a run go to its end, whatever that is, and asks that it is never silent for long: in one of five runs, for
 /// others slow it down through caches and memory.
 template <class Run>
 Patience never_silent(const Run& run, double most_s = most_silence_s) {
@@ -32,7 +32,7 @@ Patience never_silent(const Run& run, double most_s = most_silence_s) {
     patience = Patience();
     static_cast<void>(run(patience.job()));
     patience.ended();
-  } while (++tries < 3 && patience.longest_silence_s() >= most_s);
+  } while (++tries < 5 && patience.longest_silence_s() >= most_s);
   EXPECT_LT(patience.longest_silence_s(), most_s) << patience.silent_stage();
   std::cout << "  silent for at most " << 1e3 * patience.longest_silence_s() << " ms (" << patience.silent_stage()
             << ")\n";

@@ -88,6 +88,10 @@ TEST(DrainedVoid, IsCancelledAtAnyReport) {
   for (int k = 1; k <= never.reports(); k += 1 + never.reports() / 10) {
     test::CancelAt at_k(k);
     const auto result = drained_with(attempt, input, Process::powder, at_k.job());
+    if (at_k.reports() < k) {  // a child process reports as time goes by: fewer reports this time
+      EXPECT_GT(k, never.reports() / 2) << "never came to report " << k;
+      continue;
+    }
     ASSERT_FALSE(result.has_value());
     EXPECT_EQ(result.error().code, ErrorCode::cancelled);
   }

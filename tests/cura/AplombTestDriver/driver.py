@@ -115,7 +115,7 @@ class Driver(Extension):
         self._app.readLocalFile(QUrl.fromLocalFile(MODEL), "open_as_model")
         yield lambda: self.model() is not None
         self._app.getWelcomePagesModel().allFinished.emit()
-        yield self.after(2)  # the model is being set down
+        yield self.set_down()
 
     def models(self):
         root = self._app.getController().getScene().getRoot()
@@ -127,6 +127,16 @@ class Driver(Extension):
     def after(self, seconds):
         until = time.monotonic() + seconds
         return lambda: time.monotonic() > until
+
+    def set_down(self, seconds=2, turns=20):
+        """Cura sets models down on the plate: until it has had time to, and in so many turns of the timer none has moved."""
+        is_time = self.after(seconds)
+        places = []
+
+        def is_done():
+            places.append([node.getWorldTransformation().getData().tobytes() for node in self.models()])
+            return is_time() and len(places) >= turns and all(one == places[-1] for one in places[-turns:])
+        return is_done
 
     def choose(self, item):
         """A click in the menu; ends when the verdict is shown."""
@@ -236,7 +246,7 @@ class Driver(Extension):
         """A second model: both are asked about, then the selected one, then both as a group."""
         self._app.readLocalFile(QUrl.fromLocalFile(SECOND_MODEL), "open_as_model")
         yield lambda: len(self.models()) == 2
-        yield self.after(2)
+        yield self.set_down()
         second = next(node for node in self.models() if node is not first)
         Selection.clear()
         yield from self.choose("Will it stand?")
@@ -270,12 +280,12 @@ class Driver(Extension):
         extruder.userChanges.removeInstance("infill_line_distance")
         self._app.readLocalFile(QUrl.fromLocalFile(MODEL), "open_as_model")
         yield lambda: self.model() is not None
-        yield self.after(2)
+        yield self.set_down()
         node = self.model()
         original, place = node.getMeshData(), node.getWorldPosition()
         yield from self.choose("Make it stand")
         self.see_verdict("ballasted")
-        yield self.after(2)  # Cura sets models down on the plate
+        yield self.set_down()
         (dense,) = self.dense_parts()
         self._seen["ballast_by_menu"] = dict(self.settings_of(dense), kept=node.getMeshData() is original, inside=dense.getParent() is node,
                                              moved=(node.getWorldPosition() - place).length())
@@ -293,12 +303,12 @@ class Driver(Extension):
         self.clear()
         self._app.readLocalFile(QUrl.fromLocalFile(BALLAST), "open_as_model")
         yield self.dense_parts
-        yield self.after(2)
+        yield self.set_down()
         (dense,) = self.dense_parts()
         group = dense.getParent()  # Cura lays a 3MF where it says on the bed, not in its middle
         centre = group.getBoundingBox().center
         group.translate(Vector(-centre.x, 0, -centre.z), SceneNode.TransformSpace.World)
-        yield self.after(2)
+        yield self.set_down()
         self._seen["ballast"] = self.settings_of(dense)
         yield from self.slice("ballast")
 
