@@ -3,6 +3,8 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 namespace aplomb::adapters {
 namespace {
@@ -14,20 +16,24 @@ Kernel::Triangle_3 triangle(const Corners& c) { return {point(c[0]), point(c[1])
 
 }  // namespace
 
-int orientation(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
-  // Shewchuk's static filter (1997): the determinant's rounding error is below (7 + 56 eps) eps times the
-  // permanent.
-  const Vec3 u = b - a, v = c - a, w = d - a;
-  const double vw = v.y * w.z, wv = v.z * w.y, wu = w.y * u.z, uw = w.z * u.y, uv = u.y * v.z, vu = u.z * v.y;
-  const double determinant = u.x * (vw - wv) + v.x * (wu - uw) + w.x * (uv - vu);
-  const double permanent = std::abs(u.x) * (std::abs(vw) + std::abs(wv)) +
-                           std::abs(v.x) * (std::abs(wu) + std::abs(uw)) +
-                           std::abs(w.x) * (std::abs(uv) + std::abs(vu));
-  if (permanent == 0) return 0;  // as on a plane along the axes
+OrientedPlane::OrientedPlane(const Corners& corners) : corners_(corners) {
+  const Vec3 u = corners[1] - corners[0], v = corners[2] - corners[0];
+  const auto minor = [](double p, double q) { return std::pair(p - q, std::abs(p) + std::abs(q)); };
+  std::tie(normal_.x, permanent_.x) = minor(u.y * v.z, u.z * v.y);
+  std::tie(normal_.y, permanent_.y) = minor(u.z * v.x, u.x * v.z);
+  std::tie(normal_.z, permanent_.z) = minor(u.x * v.y, u.y * v.x);
+}
+
+int OrientedPlane::side_of(Vec3 d) const {
+  // Shewchuk's static filter (1997): the determinant's rounding error is below (7 + 56 eps) eps times the permanent.
+  const Vec3 w = d - corners_[0];
+  const double determinant = dot(w, normal_);
+  const double permanent = std::abs(w.x) * permanent_.x + std::abs(w.y) * permanent_.y + std::abs(w.z) * permanent_.z;
   const double bound = 7.7715611723761027e-16 * permanent;
   if (determinant > bound) return 1;
   if (determinant < -bound) return -1;
-  return static_cast<int>(CGAL::orientation(point(a), point(b), point(c), point(d)));
+  if (permanent == 0) return 0;  // as on a plane along the axes
+  return static_cast<int>(CGAL::orientation(point(corners_[0]), point(corners_[1]), point(corners_[2]), point(d)));
 }
 
 bool triangles_meet(const Corners& a, const Corners& b) { return CGAL::do_intersect(triangle(a), triangle(b)); }

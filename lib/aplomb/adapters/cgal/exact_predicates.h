@@ -8,9 +8,20 @@ namespace aplomb::adapters {
 
 using Corners = std::array<Vec3, 3>;
 
-/// The sign of det(b - a, c - a, d - a): +1 when d is on the side towards which a, b, c run
-/// counter-clockwise. Exact.
-int orientation(Vec3 a, Vec3 b, Vec3 c, Vec3 d);
+/// The plane of three points, of which many others are asked on which side they are.
+class OrientedPlane {
+ public:
+  explicit OrientedPlane(const Corners& corners);
+
+  /// The sign of det(b - a, c - a, d - a) for the corners a, b, c: +1 when d is on the side towards which they run
+  /// counter-clockwise. Exact.
+  int side_of(Vec3 d) const;
+
+ private:
+  Corners corners_;
+  Vec3 normal_;     ///< (b - a) x (c - a)
+  Vec3 permanent_;  ///< the same with each product, and their difference, taken at its largest
+};
 
 /// Exact; no triangle is degenerate. Touching counts.
 bool triangles_meet(const Corners& a, const Corners& b);

@@ -25,8 +25,9 @@ Corners corners_of(const TriangleMesh& mesh, const Triangle& t) {
 /// Strictly all on one side of the plane of `a`.
 template <class... Points>
 bool on_one_side(const Corners& a, Vec3 first, Points... others) {
-  const int side = adapters::orientation(a[0], a[1], a[2], first);
-  return side != 0 && ((adapters::orientation(a[0], a[1], a[2], others) == side) && ...);
+  const adapters::OrientedPlane plane(a);
+  const int side = plane.side_of(first);
+  return side != 0 && ((plane.side_of(others) == side) && ...);
 }
 
 /// Turned so that the shared vertex, or the one that is not shared, comes first.
@@ -84,7 +85,7 @@ bool cross(const TriangleMesh& mesh, const Triangle& s, const Triangle& t) {
   if (share_one)
     return !on_one_side(a, b[1], b[2]) && !on_one_side(b, a[1], a[2]) &&
            (adapters::triangle_meets_segment(a, b[1], b[2]) || adapters::triangle_meets_segment(b, a[1], a[2]));
-  return adapters::orientation(a[0], a[1], a[2], b[0]) == 0 && adapters::on_same_side(a[1], a[2], a[0], b[0]);
+  return adapters::OrientedPlane(a).side_of(b[0]) == 0 && adapters::on_same_side(a[1], a[2], a[0], b[0]);
 }
 
 int crossing_above(const TriangleMesh& mesh, const Triangle& triangle, Vec3 p) {
@@ -99,7 +100,7 @@ int crossing_above(const TriangleMesh& mesh, const Triangle& triangle, Vec3 p) {
     if (right_of_p) turns += rises ? 1 : -1;
   }
   if (turns == 0) return 0;
-  return adapters::orientation(t[0], t[1], t[2], p) * turns < 0 ? turns : 0;
+  return adapters::OrientedPlane(t).side_of(p) * turns < 0 ? turns : 0;
 }
 
 Result<std::size_t> count_crossings(const TriangleMesh& mesh, const TriangleTree& tree,
