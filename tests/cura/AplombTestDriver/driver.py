@@ -16,6 +16,7 @@ from UM.Scene.SceneNode import SceneNode
 from UM.Scene.Selection import Selection
 
 from .engine import hurry
+from .waits import after, at_rest
 
 OUT = pathlib.Path(os.environ["APLOMB_DRIVER_OUT"])
 MODEL = os.environ["APLOMB_DRIVER_MODEL"]
@@ -115,7 +116,7 @@ class Driver(Extension):
         self._app.readLocalFile(QUrl.fromLocalFile(MODEL), "open_as_model")
         yield lambda: self.model() is not None
         self._app.getWelcomePagesModel().allFinished.emit()
-        yield self.set_down()
+        yield at_rest(self.models)
 
     def models(self):
         root = self._app.getController().getScene().getRoot()
@@ -124,27 +125,13 @@ class Driver(Extension):
     def model(self):
         return next(iter(self.models()), None)
 
-    def after(self, seconds):
-        until = time.monotonic() + seconds
-        return lambda: time.monotonic() > until
-
-    def set_down(self, seconds=2, turns=20):
-        """Cura sets models down on the plate: until it has had time to, and in so many turns of the timer none has moved."""
-        is_time = self.after(seconds)
-        places = []
-
-        def is_done():
-            places.append([node.getWorldTransformation().getData().tobytes() for node in self.models()])
-            return is_time() and len(places) >= turns and all(one == places[-1] for one in places[-turns:])
-        return is_done
-
     def choose(self, item):
         """A click in the menu; ends when the verdict is shown."""
         for message in self._app.getVisibleMessages()[:]:
             message.hide()
         PluginRegistry.getInstance().getPluginObject("Aplomb").activateMenuItem(item)
         yield lambda: self.verdict() is not None
-        yield self.after(1)
+        yield after(1)
 
     def verdict(self):
         return next((message for message in self._app.getVisibleMessages() if message.getTitle() == "Aplomb"), None)
@@ -160,7 +147,7 @@ class Driver(Extension):
     def change_settings(self, plugin):
         plugin.activateMenuItem(SETTINGS)
         yield lambda: self.dialog() is not None
-        yield self.after(1)
+        yield after(1)
         dialog = self.dialog()
         self.picture(dialog, "settings")
         dialog.findChild(QObject, "tip").setProperty("text", "8")
@@ -205,7 +192,7 @@ class Driver(Extension):
         self._slicing = 0
         backend.forceSlice()
         yield lambda: hurry() or self._slicing in (DONE, FAILED)
-        yield self.after(1)
+        yield after(1)
         (OUT / (name + ".gcode")).write_text("".join(getattr(scene, "gcode_dict")[0]))
         self._seen["sliced_" + name] = self._slicing == DONE
         if "APLOMB_CURA_PICTURES" in os.environ:
@@ -217,14 +204,14 @@ class Driver(Extension):
         for message in self._app.getVisibleMessages()[:]:
             message.hide()
         controller.setActiveStage("PreviewStage")
-        yield self.after(10)
+        yield after(10)
         controller.getActiveView().setLayer(PICTURED_LAYER)
         controller.setCameraRotation("y", 90)
-        yield self.after(4)
+        yield after(4)
         self.picture(self._app.getMainWindow(), "layers_" + name)
         controller.setCameraRotation("home", 0)
         controller.setActiveStage("PrepareStage")
-        yield self.after(1)
+        yield after(1)
 
     def note_state(self, state):
         self._slicing = int(state)
@@ -246,7 +233,7 @@ class Driver(Extension):
         """A second model: both are asked about, then the selected one, then both as a group."""
         self._app.readLocalFile(QUrl.fromLocalFile(SECOND_MODEL), "open_as_model")
         yield lambda: len(self.models()) == 2
-        yield self.set_down()
+        yield at_rest(self.models)
         second = next(node for node in self.models() if node is not first)
         Selection.clear()
         yield from self.choose("Will it stand?")
@@ -280,12 +267,12 @@ class Driver(Extension):
         extruder.userChanges.removeInstance("infill_line_distance")
         self._app.readLocalFile(QUrl.fromLocalFile(MODEL), "open_as_model")
         yield lambda: self.model() is not None
-        yield self.set_down()
+        yield at_rest(self.models)
         node = self.model()
         original, place = node.getMeshData(), node.getWorldPosition()
         yield from self.choose("Make it stand")
         self.see_verdict("ballasted")
-        yield self.set_down()
+        yield at_rest(self.models)
         (dense,) = self.dense_parts()
         self._seen["ballast_by_menu"] = dict(self.settings_of(dense), kept=node.getMeshData() is original, inside=dense.getParent() is node,
                                              moved=(node.getWorldPosition() - place).length())
@@ -303,12 +290,12 @@ class Driver(Extension):
         self.clear()
         self._app.readLocalFile(QUrl.fromLocalFile(BALLAST), "open_as_model")
         yield self.dense_parts
-        yield self.set_down()
+        yield at_rest(self.models)
         (dense,) = self.dense_parts()
         group = dense.getParent()  # Cura lays a 3MF where it says on the bed, not in its middle
         centre = group.getBoundingBox().center
         group.translate(Vector(-centre.x, 0, -centre.z), SceneNode.TransformSpace.World)
-        yield self.set_down()
+        yield at_rest(self.models)
         self._seen["ballast"] = self.settings_of(dense)
         yield from self.slice("ballast")
 
