@@ -79,6 +79,26 @@ export function opening(bench) {
     await page.context().close();
   });
 
+  test('a change is drawn once', async () => {
+    const page = await openPage(bench.browser, bench.coarse.address);
+    await verdict(page, /Falls/);
+    await drawn(page);
+    await page.evaluate(() => {
+      const {clear} = WebGL2RenderingContext.prototype;
+      globalThis.pictures = 0;
+      WebGL2RenderingContext.prototype.clear = function (...what) {
+        ++globalThis.pictures; // each begins with it
+        return clear.apply(this, what);
+      };
+    });
+    for (let pictures = 1; pictures <= 4; ++pictures) {
+      await page.getByRole('button', {name: 'Ring', exact: true}).click();
+      await drawn(page);
+      assert.equal(await page.evaluate(() => globalThis.pictures), pictures);
+    }
+    await page.context().close();
+  });
+
   test('arrows go round the figure, and dark stays dark at the next port', async () => {
     const page = await openPage(bench.browser, bench.coarse.address, {colorScheme: 'light'});
     await verdict(page, /Falls/);

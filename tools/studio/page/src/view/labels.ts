@@ -12,7 +12,10 @@ interface Callout {
   off: Place | undefined; // where it was put, from its point
 }
 
-/** Elements of the page that stay at points of the scene, or beside them with a line to the point. */
+/**
+ * Elements of the page that stay at points of the scene, or beside them with a line to the point. They are placed before a picture is
+ * drawn, and ask for none.
+ */
 export class Labels {
   readonly #placed = new Map<HTMLElement, Vector3>();
   readonly #beside = new Map<HTMLElement, Callout>();
@@ -27,7 +30,6 @@ export class Labels {
   put(element: HTMLElement, at: Vector3): void {
     if (!element.isConnected) this.room.append(element);
     this.#placed.set(element, at.clone());
-    this.stage.invalidate();
   }
 
   /** Where it covers neither its point nor others. */
@@ -40,7 +42,6 @@ export class Labels {
       this.room.append(element);
       this.#beside.set(element, {leader, at: at.clone(), off: undefined});
     }
-    this.stage.invalidate();
   }
 
   remove(element: HTMLElement): void {
