@@ -46,8 +46,9 @@ TEST_P(ManyBodies, AreToldApartInTimeAndMemoryThatGrowWithTheFile) {
   ASSERT_TRUE(whole.ended);
   if (test::is_sanitized()) return;
   test::Cost eighth = cost(count() / 8);
-  const auto most_s = [&] { return std::min(15.0, 0.2 + 14 * eighth.seconds); };  // 3 to 6 on quiet cores
-  for (int again = 0; again < 3 && whole.seconds >= most_s(); ++again) {          // the two were not measured at once
+  const auto most_s = [&] { return std::min(15.0, 0.2 + 14 * eighth.seconds); };  // takes 3 to 6 on quiet cores
+  // The two were not measured at once.
+  for (int again = 0; again < 3 && whole.seconds >= most_s(); ++again) {
     whole = test::least_of(whole, cost(count()));
     eighth = test::least_of(eighth, cost(count() / 8));
   }

@@ -20,7 +20,7 @@ class OrientedPlane {
  private:
   Corners corners_;
   Vec3 normal_;     ///< (b - a) x (c - a)
-  Vec3 permanent_;  ///< the same with each product, and their difference, taken at its largest
+  Vec3 permanent_;  ///< |p| + |q| where the normal has p - q
 };
 
 /// Exact; no triangle is degenerate. Touching counts.
